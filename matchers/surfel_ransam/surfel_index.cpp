@@ -9,7 +9,7 @@
 namespace glocal::surfel_ransam {
 
 SurfelIndex::SurfelIndex(const Points& map_points, const SurfelIndexRule& rule)
-    : map(map_points, rule.voxel_size, std::nullopt, false),
+    : map(map_points, rule.voxel_size, std::nullopt),
       pair_rule(surfels::pair_rule(rule.voxel_size, true)),
       pairs(map.surfels, pair_rule, rule.pairs, Rng(1)) {}
 

@@ -26,7 +26,7 @@ constexpr double seen_through_weight = 1.0;
 /// scan: where a local map of many scans was seen from is not known.
 surfels::PreparedCloud prepared(const LocalMap& local, const Scan& latest, float voxel_size) {
   constexpr float finer = 2.0F / 3.0F;
-  surfels::PreparedCloud cloud(local.points, finer * voxel_size, std::nullopt, false);
+  surfels::PreparedCloud cloud(local.points, finer * voxel_size, std::nullopt);
   if (!latest.hits.empty()) {
     const RigidMotion local_from_robot(local.local_from_robot);
     cloud.view.emplace(moved(latest.hits, local.local_from_robot), local_from_robot(latest.origin));

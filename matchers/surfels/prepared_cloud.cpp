@@ -28,9 +28,8 @@ SurfelSample sample_of(const Surfels& surfels, std::size_t n, Rng& rng) {
   return sample;
 }
 
-PreparedCloud::PreparedCloud(const Points& cloud, float voxel_size, const std::optional<Point>& seen_from,
-                             bool one_side)
-    : surfels(surfels_of(cloud, voxel_size, seen_from)), contact(surfels, voxel_size, one_side) {
+PreparedCloud::PreparedCloud(const Points& cloud, float voxel_size, const std::optional<Point>& seen_from)
+    : surfels(surfels_of(cloud, voxel_size, seen_from)), contact(surfels, voxel_size, seen_from.has_value()) {
   if (seen_from) view.emplace(cloud, *seen_from);
 }
 

@@ -23,8 +23,8 @@ struct SurfelSample {
 /// A cloud as surfels, with what tells contact with them and what was seen through.
 struct PreparedCloud {
   /// Of a cloud in voxels of a side (m). Where it was seen from: a place in its frame, if it was seen from
-  /// one. `one_side` as SurfelContact has it. Throws ConfigError if the cloud reaches too far.
-  PreparedCloud(const Points& cloud, float voxel_size, const std::optional<Point>& seen_from, bool one_side);
+  /// one; contact then tells the sides of a surface apart. Throws ConfigError if the cloud reaches too far.
+  PreparedCloud(const Points& cloud, float voxel_size, const std::optional<Point>& seen_from);
 
   Surfels surfels;
   SurfelContact contact;

@@ -75,8 +75,7 @@ Registration register_clouds(const Points& source, const Points& target, const R
                          may_be_seen_from(target, options.target_seen_from, voxel_size);
   const auto prepared = [&](const Points& cloud, const Point& seen_from) {
     return surfels::PreparedCloud(cloud, voxel_size,
-                                  result.sensors_known ? std::optional(seen_from) : std::nullopt,
-                                  result.sensors_known);
+                                  result.sensors_known ? std::optional(seen_from) : std::nullopt);
   };
   const surfels::PreparedCloud from = prepared(source, options.source_seen_from);
   const surfels::PreparedCloud to = prepared(target, options.target_seen_from);

@@ -28,12 +28,6 @@ struct RigidMotion {
     return {r[0] * v.x + r[1] * v.y + r[2] * v.z, r[3] * v.x + r[4] * v.y + r[5] * v.z,
             r[6] * v.x + r[7] * v.y + r[8] * v.z};
   }
-  /// The opposite of turned().
-  [[nodiscard]] Point turned_back(const Point& v) const {
-    const auto& r = rotation;
-    return {r[0] * v.x + r[3] * v.y + r[6] * v.z, r[1] * v.x + r[4] * v.y + r[7] * v.z,
-            r[2] * v.x + r[5] * v.y + r[8] * v.z};
-  }
   [[nodiscard]] Point operator()(const Point& p) const { return turned(p) + translation; }
 
   [[nodiscard]] Pose3 pose() const {
@@ -47,7 +41,7 @@ struct RigidMotion {
   const auto& r = motion.rotation;
   RigidMotion back;
   back.rotation = {r[0], r[3], r[6], r[1], r[4], r[7], r[2], r[5], r[8]};
-  back.translation = -1.0F * motion.turned_back(motion.translation);
+  back.translation = -1.0F * back.turned(motion.translation);
   return back;
 }
 

@@ -37,10 +37,6 @@ PairGeometry geometry_of(const Surfels& surfels, const SurfelPair& pair, bool bo
   return g;
 }
 
-int bucket_bits(std::size_t pairs) {
-  return static_cast<int>(std::bit_width(pairs));
-}
-
 /// v without its part along a unit vector.
 Point across(const Point& v, const Point& unit) {
   return v - dot(v, unit) * unit;
@@ -63,13 +59,9 @@ Frame frame_of(const PairGeometry& g) {
   return {g.line, y, cross(g.line, y)};
 }
 
-std::uint64_t mixed(std::uint64_t key) {
-  return (key ^ (key >> 15U)) * 0x9e3779b97f4a7c15ULL;
-}
-
 }  // namespace
 
-std::optional<PairRelation> PairRelation::of(const Surfels& surfels, SurfelPair& pair, const PairRule& rule) {
+std::optional<PairRelation> relation_of(const Surfels& surfels, SurfelPair& pair, const PairRule& rule) {
   constexpr float most_parallel = 0.95F;
   constexpr float least_sine = 0.3F;
   PairGeometry g = geometry_of(surfels, pair, rule.both_sides);
@@ -94,12 +86,10 @@ std::optional<PairRelation> PairRelation::of(const Surfels& surfels, SurfelPair&
   const Point b = across(g.second, g.line);
   const float twist = std::atan2(dot(cross(a, b), g.line), dot(a, b));
   const auto cell = [](float v, float side) { return static_cast<std::uint64_t>(v / side); };
-  PairRelation relation;
-  relation.key_ = ((cell(g.length, rule.length_cell) * 18 + cell(std::acos(first), cell_of_angle)) * 18 +
-                   cell(std::acos(second), cell_of_angle)) *
-                      36 +
-                  std::min<std::uint64_t>(cell(twist + pi, cell_of_angle), 35);
-  return relation;
+  return ((cell(g.length, rule.length_cell) * 18 + cell(std::acos(first), cell_of_angle)) * 18 +
+          cell(std::acos(second), cell_of_angle)) *
+             36 +
+         std::min<std::uint64_t>(cell(twist + pi, cell_of_angle), 35);
 }
 
 PairSampler::PairSampler(const Surfels& surfels, const PairRule& rule) : surfels_(&surfels), rule_(rule) {
@@ -119,13 +109,13 @@ std::optional<std::pair<SurfelPair, PairRelation>> PairSampler::draw(Rng& rng) c
   const float squared = dot(d, d);
   if (squared < rule_.shortest * rule_.shortest || squared > rule_.longest * rule_.longest)
     return std::nullopt;
-  const auto relation = PairRelation::of(*surfels_, pair, rule_);
+  const auto relation = relation_of(*surfels_, pair, rule_);
   if (!relation) return std::nullopt;
   return std::pair{pair, *relation};
 }
 
 PairTable::PairTable(const Surfels& surfels, const PairRule& rule, std::size_t pairs, Rng rng)
-    : bucket_bits_(bucket_bits(pairs)) {
+    : bucket_bits_(static_cast<int>(std::bit_width(pairs))) {
   const PairSampler sampler(surfels, rule);
   std::vector<std::pair<std::uint32_t, SurfelPair>> drawn;
   drawn.reserve(pairs);
@@ -144,11 +134,11 @@ PairTable::PairTable(const Surfels& surfels, const PairRule& rule, std::size_t p
   for (const auto& [bucket, pair] : drawn) pairs_[next[bucket]++] = pair;
 }
 
-std::size_t PairTable::bucket_of(const PairRelation& relation) const {
-  return mixed(relation.key()) >> (64 - bucket_bits_);
+std::size_t PairTable::bucket_of(PairRelation relation) const {
+  return (relation ^ (relation >> 15U)) * 0x9e3779b97f4a7c15ULL >> (64 - bucket_bits_);
 }
 
-std::span<const SurfelPair> PairTable::find(const PairRelation& relation) const {
+std::span<const SurfelPair> PairTable::find(PairRelation relation) const {
   const std::size_t bucket = bucket_of(relation);
   return std::span(pairs_).subspan(starts_[bucket], starts_[bucket + 1] - starts_[bucket]);
 }

@@ -28,19 +28,13 @@ struct PairRule {
 
 /// The relation of a pair: its length, the angles of both normals to the line between, and the twist between
 /// the normals about that line (Drost et al. 2010 have the same features but the twist's sign). Cells of 10
-/// degrees.
-class PairRelation {
- public:
-  /// None for a pair that fixes no pose: normals nearly parallel to each other, or to the line between. May
-  /// swap the two.
-  static std::optional<PairRelation> of(const Surfels& surfels, SurfelPair& pair, const PairRule& rule);
+/// degrees, in one number.
+using PairRelation = std::uint64_t;
 
-  /// A number that equal relations share.
-  [[nodiscard]] std::uint64_t key() const { return key_; }
-
- private:
-  std::uint64_t key_ = 0;
-};
+/// None for a pair that fixes no pose: normals nearly parallel to each other, or to the line between. May
+/// swap the two.
+[[nodiscard]] std::optional<PairRelation> relation_of(const Surfels& surfels, SurfelPair& pair,
+                                                      const PairRule& rule);
 
 /// Draws pairs of surfels by their weights.
 class PairSampler {
@@ -61,14 +55,14 @@ class PairTable {
   PairTable(const Surfels& surfels, const PairRule& rule, std::size_t pairs, Rng rng);
 
   /// Pairs whose relation is perhaps the same.
-  [[nodiscard]] std::span<const SurfelPair> find(const PairRelation& relation) const;
+  [[nodiscard]] std::span<const SurfelPair> find(PairRelation relation) const;
   [[nodiscard]] std::size_t size() const { return pairs_.size(); }
   [[nodiscard]] std::size_t memory_bytes() const {
     return starts_.size() * sizeof(std::uint32_t) + pairs_.size() * sizeof(SurfelPair);
   }
 
  private:
-  [[nodiscard]] std::size_t bucket_of(const PairRelation& relation) const;
+  [[nodiscard]] std::size_t bucket_of(PairRelation relation) const;
 
   int bucket_bits_;
   std::vector<std::uint32_t> starts_;  ///< Of each bucket in pairs_, and the end of the last.

@@ -53,14 +53,14 @@ TEST(Surfels, NormalsOfAHallAreThoseOfItsSidesAndPointToTheSensor) {
 
 TEST(PreparedCloud, ACloudAgreesWithItselfAndNothingIsSeenThrough) {
   const Points scan = scan_of(hall(), place);
-  const PreparedCloud cloud(scan, voxel, Point{}, true);
+  const PreparedCloud cloud(scan, voxel, Point{});
   const Agreement itself = agreement_of(cloud.surfels, RigidMotion(), cloud);
   EXPECT_GT(itself.contact, 0.99);
   EXPECT_EQ(itself.seen_through, 0.0);
 }
 
 TEST(PreparedCloud, AWallInFrontOfWhatWasSeenIsSeenThrough) {
-  const PreparedCloud cloud(scan_of(hall(), place), voxel, Point{}, true);
+  const PreparedCloud cloud(scan_of(hall(), place), voxel, Point{});
   // A meter of wall, two meters before the sensor, where it saw five.
   Surfels wall;
   const Pose3 lidar_from_hall = inverse(place);
@@ -96,9 +96,9 @@ TEST(SurfelPairs, RelationsStayWhenTheCloudIsMovedAndTheMotionIsFound) {
       if (!pair) continue;
       ++drawn;
       SurfelPair same = pair->first;
-      const auto relation = PairRelation::of(moved, same, rule);
+      const auto relation = relation_of(moved, same, rule);
       // Rounding may bring a relation into the next cell, or turn the pair around.
-      if (!relation || relation->key() != pair->second.key() || same.first != pair->first.first) continue;
+      if (!relation || *relation != pair->second || same.first != pair->first.first) continue;
       ++same_relation;
       const RigidMotion found = motion_between(surfels, pair->first, moved, same, both_sides);
       EXPECT_GT(cosine_between(found, motion), 0.999F);
@@ -110,9 +110,9 @@ TEST(SurfelPairs, RelationsStayWhenTheCloudIsMovedAndTheMotionIsFound) {
 }
 
 TEST(PointToPlane, RefinesAPoseThatIsALittleOff) {
-  const PreparedCloud target(scan_of(hall(), place), voxel, Point{}, true);
+  const PreparedCloud target(scan_of(hall(), place), voxel, Point{});
   const Pose3 other({5.4, 4.2, 1.3}, exponential({0.2, -0.1, 0.9}));
-  const PreparedCloud source(scan_of(hall(), other), voxel, Point{}, true);
+  const PreparedCloud source(scan_of(hall(), other), voxel, Point{});
   const Pose3 truth = inverse(place) * other;
   const Pose3 guess = truth * Pose3({0.08, -0.06, 0.05}, exponential({0.02, -0.03, 0.03}));
   Rng rng(1);
