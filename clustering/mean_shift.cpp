@@ -21,6 +21,10 @@ struct Kernel {
 
   /// In bandwidths; what is farther away does not count.
   [[nodiscard]] double reach() const { return is_flat ? 1.0 : 3.0; }
+  /// The same in metres and radians.
+  [[nodiscard]] PoseRadius radius() const {
+    return {reach() * bandwidth.translation, reach() * bandwidth.rotation};
+  }
   /// Of the squared distance in bandwidths.
   [[nodiscard]] double weight(double squared) const {
     if (squared > reach() * reach()) return 0.0;
@@ -113,59 +117,39 @@ Climbers<Pose> gather(const Together& together, std::span<const Pose> poses,
   return result;
 }
 
-/// Finds all poses that count, seen from another one.
-template <class Pose>
-class Surroundings;
+/// Poses sorted to find those within a radius of another one.
+PoseCells sorted(std::span<const Pose2> poses, const PoseRadius& radius) {
+  return {poses, {radius.translation, wide_parts_of_a_turn(radius.rotation)}};
+}
+PoseGroups sorted(std::span<const Pose3> poses, const PoseRadius& radius) {
+  return {poses, radius};
+}
 
-template <>
-class Surroundings<Pose2> {
- public:
-  Surroundings(std::span<const Pose2> poses, const Kernel& kernel)
-      : cells_(poses, {kernel.reach() * kernel.bandwidth.translation,
-                       wide_parts_of_a_turn(kernel.reach() * kernel.bandwidth.rotation)}) {}
-  template <class Visit>
-  void visit(const Pose2& pose, Visit visit_one) const {
-    // Nothing counts that is more than one cell away.
-    cells_.visit_near(cells_.cell_of(pose), 1, 1, [&](std::size_t c) {
-      for (const std::size_t i : cells_.members(c)) visit_one(i);
-      return true;
-    });
-  }
-
- private:
-  PoseCells cells_;
-};
-
-template <>
-class Surroundings<Pose3> {
- public:
-  Surroundings(std::span<const Pose3> poses, const Kernel& kernel)
-      : reach_{kernel.reach() * kernel.bandwidth.translation, kernel.reach() * kernel.bandwidth.rotation},
-        groups_(poses, reach_) {}
-  template <class Visit>
-  void visit(const Pose3& pose, Visit visit_one) const {
-    groups_.visit_near(pose, reach_, [&](std::size_t g) {
-      for (const std::size_t i : groups_.members(g)) visit_one(i);
-      return true;
-    });
-  }
-
- private:
-  PoseRadius reach_;
-  PoseGroups groups_;
-};
+/// Calls visit(number) for each cell or group that can have a pose within the radius they were sorted for.
+template <class Visit>
+void visit_around(const PoseCells& cells, const Pose2& pose, const PoseRadius& /*radius*/, Visit visit) {
+  // Nothing within the radius is more than one cell away.
+  cells.visit_near(cells.cell_of(pose), 1, 1, visit);
+}
+template <class Visit>
+void visit_around(const PoseGroups& groups, const Pose3& pose, const PoseRadius& radius, Visit visit) {
+  groups.visit_near(pose, radius, visit);
+}
 
 /// The mean shift at a pose.
-template <class Pose>
-Shift<Pose> mean_shift(const Pose& pose, const Climbers<Pose>& all, const Surroundings<Pose>& surroundings,
+template <class Pose, class Together>
+Shift<Pose> mean_shift(const Pose& pose, const Climbers<Pose>& all, const Together& together,
                        const Kernel& kernel) {
   Shift<Pose> mean;
   double weights = 0.0;
-  surroundings.visit(pose, [&](std::size_t i) {
-    const Shift<Pose> shift(pose, all.poses[i]);
-    const double weight = all.weights[i] * kernel.weight(shift.squared(kernel.bandwidth));
-    mean.add(shift, weight);
-    weights += weight;
+  visit_around(together, pose, kernel.radius(), [&](std::size_t c) {
+    for (const std::size_t i : together.members(c)) {
+      const Shift<Pose> shift(pose, all.poses[i]);
+      const double weight = all.weights[i] * kernel.weight(shift.squared(kernel.bandwidth));
+      mean.add(shift, weight);
+      weights += weight;
+    }
+    return true;
   });
   if (weights > 0.0) mean.divide(weights);
   return mean;
@@ -176,11 +160,11 @@ template <class Pose>
 std::vector<Pose> modes_of(const Climbers<Pose>& climbers, const Kernel& kernel) {
   constexpr double still = 1e-3;   // bandwidths
   constexpr int most_steps = 100;  // most climbs end by themselves before
-  const Surroundings<Pose> surroundings(climbers.poses, kernel);
+  const auto together = sorted(climbers.poses, kernel.radius());
   std::vector<Pose> modes = climbers.poses;
   for (Pose& mode : modes) {
     for (int i = 0; i < most_steps; ++i) {
-      const Shift<Pose> shift = mean_shift(mode, climbers, surroundings, kernel);
+      const Shift<Pose> shift = mean_shift(mode, climbers, together, kernel);
       mode = shift.from(mode);
       if (shift.squared(kernel.bandwidth) < still * still) break;
     }
