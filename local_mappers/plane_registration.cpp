@@ -1,6 +1,5 @@
 #include "local_mappers/plane_registration.hpp"
 
-#include <cmath>
 #include <optional>
 
 #include "glocal/motion_equations.hpp"

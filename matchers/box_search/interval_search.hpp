@@ -7,7 +7,6 @@
 #include <optional>
 #include <vector>
 
-#include "glocal/pose2.hpp"
 #include "glocal/pose3.hpp"
 #include "matchers/box_search/best_places.hpp"
 #include "matchers/box_search/box_pyramid.hpp"

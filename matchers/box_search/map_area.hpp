@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <vector>
 
 #include "glocal/extent.hpp"
 #include "glocal/global_map.hpp"

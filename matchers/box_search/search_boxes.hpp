@@ -11,7 +11,6 @@
 #include "glocal/pose3.hpp"
 #include "glocal/pose_tolerance.hpp"
 #include "glocal/prior.hpp"
-#include "matchers/box_search/best_places.hpp"
 #include "matchers/box_search/box_pyramid.hpp"
 #include "matchers/box_search/pose_boxes.hpp"
 

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <cstddef>
 #include <memory>
-#include <vector>
 
 #include "matchers/box_search/allowed_translations.hpp"
 #include "matchers/box_search/best_places.hpp"

@@ -1,8 +1,5 @@
 #include "matchers/iransac/iransac.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>

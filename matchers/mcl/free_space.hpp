@@ -1,7 +1,6 @@
 // Where a robot can be.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>

@@ -6,6 +6,7 @@
 
 #include "glocal/rng.hpp"
 #include "matchers/surfels/range_view.hpp"
+#include "matchers/surfels/rigid_motion.hpp"
 #include "matchers/surfels/surfel_contact.hpp"
 #include "matchers/surfels/surfels.hpp"
 

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "matchers/surfels/rigid_motion.hpp"
+#include "glocal/points.hpp"
 
 namespace glocal::surfels {
 

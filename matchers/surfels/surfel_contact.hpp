@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "matchers/surfels/rigid_motion.hpp"
 #include "matchers/surfels/surfels.hpp"
 #include "matchers/surfels/voxel_table.hpp"
 

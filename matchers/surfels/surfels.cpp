@@ -5,7 +5,6 @@
 #include <cstdint>
 
 #include "glocal/point_spread.hpp"
-#include "matchers/surfels/rigid_motion.hpp"
 #include "matchers/surfels/voxel_table.hpp"
 
 namespace glocal::surfels {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "glocal/error.hpp"
+#include "glocal/pose_cells.hpp"
 #include "matchers/box_search/search_boxes.hpp"
 #include "matchers/same_answer.hpp"
 #include "matchers/surfels/hall_map.hpp"
