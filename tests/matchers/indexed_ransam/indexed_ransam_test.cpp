@@ -9,6 +9,7 @@
 
 #include "files.hpp"
 #include "glocal/yaml.hpp"
+#include "matchers/same_answer.hpp"
 #include "test_world.hpp"
 
 namespace glocal::indexed_ransam::indexed_ransam_test {
