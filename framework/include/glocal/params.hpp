@@ -14,6 +14,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace glocal {
@@ -74,30 +75,37 @@ struct FilePath {
 
 struct YamlNode;
 
-/// Sets of changes to an experiment by name, as written: {name: {path: value}}. Null if there is none.
-struct NamedChanges {
-  std::shared_ptr<const YamlNode> written = nullptr;
+/// A part of an experiment as it is written, which is judged where it is put to use.
+struct Written {
+  std::shared_ptr<const YamlNode> written = nullptr;  ///< Null if there is none.
 };
 
-/// Values for paths into an experiment, as written: {path: [value, value]}. Null if there is none.
-struct ListedChanges {
-  std::shared_ptr<const YamlNode> written = nullptr;
-};
+/// Sets of changes to an experiment by name: {name: {path: value}}.
+struct NamedChanges : Written {};
 
-/// What to draw values from for paths into an experiment, as written: {path: [low, high]}. Null if there is
-/// none.
-struct RangedChanges {
-  std::shared_ptr<const YamlNode> written = nullptr;
-};
+/// Values for paths into an experiment: {path: [value, value]}.
+struct ListedChanges : Written {};
 
-/// Seeds, as written: 7, 1..30 or [1, 2, 10..20]. Null if there is none.
-struct SeedList {
-  std::shared_ptr<const YamlNode> written = nullptr;
-};
+/// What to draw values from for paths into an experiment: {path: [low, high]}.
+struct RangedChanges : Written {};
+
+/// Seeds: 7, 1..30 or [1, 2, 10..20].
+struct SeedList : Written {};
 
 /// Methods or cases of an experiment: a list of names, files and `name: {keys}`, or a map of these. They are
-/// put into the experiment before its values are read.
-struct PartList {};
+/// put into the experiment before its values are read, so that nothing is left of them here.
+struct PartList : Written {};
+
+/// Where the value of a plain field is: of one that is neither a struct, a list of structs nor a strategy. An
+/// optional number is `auto` without one: then something else says what it is. Pairs of numbers are segments
+/// or way points.
+using ValueRef = std::variant<bool*, int*, std::uint64_t*, double*, std::optional<double>*, std::string*,
+                              FilePath*, std::vector<double>*, std::vector<std::string>*,
+                              std::vector<FilePath>*, std::vector<std::array<double, 2>>*, NamedChanges*,
+                              ListedChanges*, RangedChanges*, SeedList*, PartList*>;
+
+template <class T>
+concept Plain = std::constructible_from<ValueRef, T*>;
 
 class ParamVisitor;
 class RegistryBase;
@@ -131,26 +139,10 @@ class ParamVisitor {
  public:
   virtual ~ParamVisitor() = default;
 
-  virtual void field(std::string_view name, bool& value, const FieldInfo& info) = 0;
-  virtual void field(std::string_view name, int& value, const FieldInfo& info) = 0;
-  virtual void field(std::string_view name, std::uint64_t& value, const FieldInfo& info) = 0;
-  virtual void field(std::string_view name, double& value, const FieldInfo& info) = 0;
-  /// A number, or `auto` for none: then something else says what it is.
-  virtual void field(std::string_view name, std::optional<double>& value, const FieldInfo& info) = 0;
-  virtual void field(std::string_view name, std::string& value, const FieldInfo& info) = 0;
-  virtual void field(std::string_view name, FilePath& value, const FieldInfo& info) = 0;
-  virtual void field(std::string_view name, std::vector<double>& value, const FieldInfo& info) = 0;
-  virtual void field(std::string_view name, std::vector<std::string>& value, const FieldInfo& info) = 0;
-  virtual void field(std::string_view name, std::vector<FilePath>& value, const FieldInfo& info) = 0;
-  /// A list of pairs of numbers (segments, way points).
-  virtual void field(std::string_view name, std::vector<std::array<double, 2>>& value,
-                     const FieldInfo& info) = 0;
-  /// Changes to an experiment, which are judged where they are put to use.
-  virtual void field(std::string_view name, NamedChanges& value, const FieldInfo& info) = 0;
-  virtual void field(std::string_view name, ListedChanges& value, const FieldInfo& info) = 0;
-  virtual void field(std::string_view name, RangedChanges& value, const FieldInfo& info) = 0;
-  virtual void field(std::string_view name, SeedList& value, const FieldInfo& info) = 0;
-  virtual void field(std::string_view name, PartList& value, const FieldInfo& info) = 0;
+  template <Plain T>
+  void field(std::string_view name, T& value, const FieldInfo& info) {
+    plain(name, &value, info);
+  }
 
   /// A struct within a struct.
   template <Described T>
@@ -188,12 +180,13 @@ class ParamVisitor {
 
   /// A rule that spans fields, stated after them: `rule` is reported at `field` if it does not hold.
   /// Only visitors that take values in check it.
-  virtual void require(bool holds, std::string_view field, std::string_view rule) = 0;
+  virtual void require(bool /*holds*/, std::string_view /*field*/, std::string_view /*rule*/) {}
 
   /// A field that is gone: whoever still gives it is told what to do instead.
   virtual void removed(std::string_view /*name*/, std::string_view /*advice*/) {}
 
  protected:
+  virtual void plain(std::string_view name, ValueRef value, const FieldInfo& info) = 0;
   virtual void group(std::string_view name, AnyParams& params, const FieldInfo& info) = 0;
   virtual void list(std::string_view name, AnyList& list, const FieldInfo& info) = 0;
 };

@@ -1,53 +1,22 @@
 #include "config/field_docs.hpp"
 
 #include <algorithm>
+#include <concepts>
 #include <string_view>
 #include <utility>
+#include <variant>
 
 #include "config/nearest.hpp"
 #include "config/reader.hpp"
 #include "config/scalars.hpp"
-#include "config/uniform_visitor.hpp"
 
 namespace glocal {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-template <class T>
-constexpr FieldType type_of = FieldType::group;
-template <>
-constexpr FieldType type_of<bool> = FieldType::boolean;
-template <>
-constexpr FieldType type_of<int> = FieldType::whole;
-template <>
-constexpr FieldType type_of<std::uint64_t> = FieldType::unsigned_whole;
-template <>
-constexpr FieldType type_of<double> = FieldType::number;
-template <>
-constexpr FieldType type_of<std::optional<double>> = FieldType::number_or_auto;
-template <>
-constexpr FieldType type_of<std::string> = FieldType::text;
-template <>
-constexpr FieldType type_of<FilePath> = FieldType::path;
-template <>
-constexpr FieldType type_of<std::vector<double>> = FieldType::numbers;
-template <>
-constexpr FieldType type_of<std::vector<std::string>> = FieldType::texts;
-template <>
-constexpr FieldType type_of<std::vector<FilePath>> = FieldType::paths;
-template <>
-constexpr FieldType type_of<std::vector<std::array<double, 2>>> = FieldType::pairs;
-template <>
-constexpr FieldType type_of<NamedChanges> = FieldType::named_changes;
-template <>
-constexpr FieldType type_of<ListedChanges> = FieldType::listed_changes;
-template <>
-constexpr FieldType type_of<RangedChanges> = FieldType::ranged_changes;
-template <>
-constexpr FieldType type_of<SeedList> = FieldType::seeds;
-template <>
-constexpr FieldType type_of<PartList> = FieldType::parts;
+/// The types of plain fields come first, in the order of ValueRef's.
+static_assert(static_cast<std::size_t>(FieldType::group) == std::variant_size_v<ValueRef>);
 
 template <class T>
 Json to_json_value(const T& value) {
@@ -66,29 +35,13 @@ Json to_json_value(const std::vector<FilePath>& values) {
 }
 
 /// There is no default to show.
-Json to_json_value(const NamedChanges& /*value*/) {
-  return {};
-}
-Json to_json_value(const ListedChanges& /*value*/) {
-  return {};
-}
-Json to_json_value(const RangedChanges& /*value*/) {
-  return {};
-}
-Json to_json_value(const SeedList& /*value*/) {
-  return {};
-}
-Json to_json_value(const PartList& /*value*/) {
+template <std::derived_from<Written> T>
+Json to_json_value(const T& /*value*/) {
   return {};
 }
 
-class Documenter final : public UniformVisitor<Documenter> {
+class Documenter final : public ParamVisitor {
  public:
-  template <class T>
-  void value(std::string_view name, T& v, const FieldInfo& info) {
-    add(name, type_of<T>, info, info.required ? Json() : to_json_value(v));
-  }
-
   void strategy(std::string_view name, StrategyChoice& choice, const RegistryBase& registry,
                 const FieldInfo& info) override {
     add(name, FieldType::strategy, info, choice.name.empty() ? Json() : Json(choice.name));
@@ -102,6 +55,11 @@ class Documenter final : public UniformVisitor<Documenter> {
   [[nodiscard]] StructDoc take() { return std::move(doc_); }
 
  private:
+  void plain(std::string_view name, ValueRef value, const FieldInfo& info) override {
+    const auto json = [](const auto* v) { return to_json_value(*v); };
+    add(name, static_cast<FieldType>(value.index()), info, info.required ? Json() : std::visit(json, value));
+  }
+
   void group(std::string_view name, AnyParams& params, const FieldInfo& info) override {
     add(name, FieldType::group, info, Json());
     doc_.fields.back().inner = {document(params)};

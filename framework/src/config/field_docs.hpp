@@ -12,6 +12,7 @@
 
 namespace glocal {
 
+/// Those of plain fields are in the order of ValueRef.
 enum class FieldType {
   boolean,
   whole,

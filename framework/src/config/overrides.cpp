@@ -9,7 +9,6 @@
 #include <string_view>
 #include <utility>
 
-#include "config/uniform_visitor.hpp"
 #include "config/yaml_parser.hpp"
 
 namespace glocal {
@@ -19,14 +18,11 @@ using Path = std::span<const std::string>;
 
 /// Finds out which keys on a path stand for a strategy: there, and only there, the next key takes the place
 /// of others.
-class StrategyFinder final : public UniformVisitor<StrategyFinder> {
+class StrategyFinder final : public ParamVisitor {
  public:
   /// Fills `is_strategy[i]` for path[i], from `depth` on.
   StrategyFinder(Path path, std::size_t depth, std::vector<bool>& is_strategy)
       : path_(path), depth_(depth), is_strategy_(&is_strategy) {}
-
-  template <class T>
-  void value(std::string_view /*name*/, T& /*v*/, const FieldInfo& /*info*/) {}
 
   void strategy(std::string_view name, StrategyChoice& /*choice*/, const RegistryBase& registry,
                 const FieldInfo& /*info*/) override {
@@ -39,9 +35,9 @@ class StrategyFinder final : public UniformVisitor<StrategyFinder> {
     info->default_params()->visit(deeper);
   }
 
-  void require(bool /*holds*/, std::string_view /*field*/, std::string_view /*rule*/) override {}
-
  private:
+  void plain(std::string_view /*name*/, ValueRef /*value*/, const FieldInfo& /*info*/) override {}
+
   void group(std::string_view name, AnyParams& params, const FieldInfo& /*info*/) override {
     if (!leads_to(name)) return;
     StrategyFinder deeper(path_, depth_ + 1, *is_strategy_);

@@ -5,12 +5,12 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 
 #include "config/builtin_parts.hpp"
 #include "config/nearest.hpp"
 #include "config/scalars.hpp"
 #include "config/text_file.hpp"
-#include "config/uniform_visitor.hpp"
 #include "config/yaml_parser.hpp"
 #include "glocal/yaml.hpp"
 
@@ -40,20 +40,11 @@ void read_struct(const YamlNode& node, const std::string& path, AnyParams& param
                  OtherKeys other_keys);
 
 /// Reads the fields of one struct from one map.
-class MapReader final : public UniformVisitor<MapReader> {
+class MapReader final : public ParamVisitor {
  public:
   /// `path` is the map's, for messages.
   MapReader(const YamlNode& map, std::string path, std::vector<Fault>& faults, OtherKeys other_keys)
       : map_(&map), path_(std::move(path)), faults_(&faults), other_keys_(other_keys) {}
-
-  template <class T>
-  void value(std::string_view name, T& v, const FieldInfo& info) {
-    const YamlNode* node = take(name, info);
-    if (node == nullptr) return;
-    const std::size_t before = faults_->size();
-    read(*node, std::string(name), v, info);
-    is_read_ = is_read_ && faults_->size() == before;
-  }
 
   void strategy(std::string_view name, StrategyChoice& choice, const RegistryBase& registry,
                 const FieldInfo& info) override {
@@ -102,6 +93,14 @@ class MapReader final : public UniformVisitor<MapReader> {
   }
 
  private:
+  void plain(std::string_view name, ValueRef value, const FieldInfo& info) override {
+    const YamlNode* node = take(name, info);
+    if (node == nullptr) return;
+    const std::size_t before = faults_->size();
+    std::visit([&](auto* v) { read(*node, std::string(name), *v, info); }, value);
+    is_read_ = is_read_ && faults_->size() == before;
+  }
+
   void group(std::string_view name, AnyParams& params, const FieldInfo& info) override {
     if (const YamlNode* node = take(name, info)) {
       read_struct(*node, joined(path_, name), params, *faults_, other_keys_);

@@ -1,12 +1,13 @@
 #include "config/writer.hpp"
 
 #include <algorithm>
+#include <concepts>
 #include <cstddef>
 #include <string_view>
 #include <utility>
+#include <variant>
 
 #include "config/scalars.hpp"
-#include "config/uniform_visitor.hpp"
 #include "glocal/registry.hpp"
 
 namespace glocal {
@@ -36,7 +37,7 @@ bool is_plain(const std::string& text) {
   });
 }
 
-class YamlWriter final : public UniformVisitor<YamlWriter> {
+class YamlWriter final : public ParamVisitor {
  public:
   using Comments = std::map<std::string, std::string>;
 
@@ -45,19 +46,6 @@ class YamlWriter final : public UniformVisitor<YamlWriter> {
       : indent_(indent, ' '), path_(std::move(path)), comments_(comments) {}
 
   [[nodiscard]] const std::string& text() const { return text_; }
-
-  template <class T>
-  void value(std::string_view name, T& v, const FieldInfo& /*info*/) {
-    const auto comment = comments_.find(path_ + std::string(name));
-    line(name, flow(v) + (comment == comments_.end() ? "" : "  # " + comment->second));
-  }
-
-  /// Variants are written as experiments of their own.
-  void value(std::string_view /*name*/, NamedChanges& /*v*/, const FieldInfo& /*info*/) {}
-  void value(std::string_view /*name*/, ListedChanges& /*v*/, const FieldInfo& /*info*/) {}
-  void value(std::string_view /*name*/, RangedChanges& /*v*/, const FieldInfo& /*info*/) {}
-  void value(std::string_view /*name*/, SeedList& /*v*/, const FieldInfo& /*info*/) {}
-  void value(std::string_view /*name*/, PartList& /*v*/, const FieldInfo& /*info*/) {}
 
   void strategy(std::string_view name, StrategyChoice& choice, const RegistryBase& registry,
                 const FieldInfo& /*info*/) override {
@@ -72,9 +60,19 @@ class YamlWriter final : public UniformVisitor<YamlWriter> {
     }
   }
 
-  void require(bool /*holds*/, std::string_view /*field*/, std::string_view /*rule*/) override {}
-
  private:
+  void plain(std::string_view name, ValueRef value, const FieldInfo& /*info*/) override {
+    std::visit(
+        [&]<class T>(const T* v) {
+          // Variants are written as experiments of their own.
+          if constexpr (!std::derived_from<T, Written>) {
+            const auto comment = comments_.find(path_ + std::string(name));
+            line(name, flow(*v) + (comment == comments_.end() ? "" : "  # " + comment->second));
+          }
+        },
+        value);
+  }
+
   void group(std::string_view name, AnyParams& params, const FieldInfo& /*info*/) override {
     YamlWriter fields(indent_.size() + 2, path_below(name), comments_);
     params.visit(fields);
