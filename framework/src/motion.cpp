@@ -1,17 +1,19 @@
 #include "glocal/motion.hpp"
 
+#include <array>
+#include <cstddef>
+
 namespace glocal {
 
+namespace {
+
+constexpr std::array motion_names = {"planar", "upright", "free"};
+static_assert(motion_names.size() == every_motion.size());
+
+}  // namespace
+
 const char* to_string(Motion motion) {
-  switch (motion) {
-    case Motion::planar:
-      return "planar";
-    case Motion::upright:
-      return "upright";
-    case Motion::free:
-      return "free";
-  }
-  return "";
+  return motion_names[static_cast<std::size_t>(motion)];
 }
 
 std::string to_string(const Motions& motions) {

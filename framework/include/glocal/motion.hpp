@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <string>
 
 namespace glocal {
@@ -14,6 +15,7 @@ enum class Motion {
 };
 
 inline constexpr std::array every_motion{Motion::planar, Motion::upright, Motion::free};
+static_assert(every_motion.size() == static_cast<std::size_t>(Motion::free) + 1);
 
 /// The name used in YAML and messages.
 [[nodiscard]] const char* to_string(Motion motion);
@@ -26,15 +28,7 @@ struct Motions {
   bool free = false;
 
   [[nodiscard]] constexpr bool contain(Motion motion) const {
-    switch (motion) {
-      case Motion::planar:
-        return planar;
-      case Motion::upright:
-        return upright;
-      case Motion::free:
-        return free;
-    }
-    return false;
+    return std::array{planar, upright, free}[static_cast<std::size_t>(motion)];
   }
 
   friend bool operator==(const Motions&, const Motions&) = default;

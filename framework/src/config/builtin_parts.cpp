@@ -3,6 +3,8 @@
 #include <dlfcn.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdlib>
 #include <fstream>
 #include <system_error>
@@ -12,16 +14,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const char* folder_of(PartKind kind) {
-  switch (kind) {
-    case PartKind::method:
-      return "methods";
-    case PartKind::the_case:
-      return "cases";
-    case PartKind::suite:
-      return "suites";
-  }
-  return "";
+constexpr std::array part_kind_names = {"method", "case", "suite"};
+static_assert(part_kind_names.size() == static_cast<std::size_t>(PartKind::suite) + 1);
+
+std::string folder_of(PartKind kind) {
+  return to_string(kind) + std::string("s");
 }
 
 /// What stands behind '#' in the lines that a file begins with, up to the first full stop.
@@ -38,15 +35,7 @@ std::string first_comment(const fs::path& file) {
 }  // namespace
 
 const char* to_string(PartKind kind) {
-  switch (kind) {
-    case PartKind::method:
-      return "method";
-    case PartKind::the_case:
-      return "case";
-    case PartKind::suite:
-      return "suite";
-  }
-  return "";
+  return part_kind_names[static_cast<std::size_t>(kind)];
 }
 
 fs::path library_folder() {

@@ -1,7 +1,9 @@
 #include "config/field_docs.hpp"
 
 #include <algorithm>
+#include <array>
 #include <concepts>
+#include <cstddef>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -17,6 +19,27 @@ using Json = nlohmann::ordered_json;
 
 /// The types of plain fields come first, in the order of ValueRef's.
 static_assert(static_cast<std::size_t>(FieldType::group) == std::variant_size_v<ValueRef>);
+
+constexpr std::array type_names = {"true or false",
+                                   "whole number",
+                                   "whole number",
+                                   "number",
+                                   "number or auto",
+                                   "text",
+                                   "path",
+                                   "list of numbers",
+                                   "list of texts",
+                                   "list of paths",
+                                   "list of pairs of numbers",
+                                   "maps of paths and values",
+                                   "map of paths and lists of values",
+                                   "map of paths and ranges",
+                                   "whole numbers and ranges A..B",
+                                   "names, files and maps of keys",
+                                   "map",
+                                   "list of maps"};
+/// What a strategy is called, its registry says.
+static_assert(type_names.size() == static_cast<std::size_t>(FieldType::strategy));
 
 template <class T>
 Json to_json_value(const T& value) {
@@ -156,46 +179,8 @@ bool has_expert_fields(const StructDoc& doc) {
 }
 
 std::string type_name(const FieldDoc& field) {
-  switch (field.type) {
-    case FieldType::boolean:
-      return "true or false";
-    case FieldType::whole:
-    case FieldType::unsigned_whole:
-      return "whole number";
-    case FieldType::number:
-      return "number";
-    case FieldType::number_or_auto:
-      return "number or auto";
-    case FieldType::text:
-      return "text";
-    case FieldType::path:
-      return "path";
-    case FieldType::numbers:
-      return "list of numbers";
-    case FieldType::texts:
-      return "list of texts";
-    case FieldType::paths:
-      return "list of paths";
-    case FieldType::pairs:
-      return "list of pairs of numbers";
-    case FieldType::named_changes:
-      return "maps of paths and values";
-    case FieldType::listed_changes:
-      return "map of paths and lists of values";
-    case FieldType::ranged_changes:
-      return "map of paths and ranges";
-    case FieldType::seeds:
-      return "whole numbers and ranges A..B";
-    case FieldType::parts:
-      return "names, files and maps of keys";
-    case FieldType::group:
-      return "map";
-    case FieldType::list:
-      return "list of maps";
-    case FieldType::strategy:
-      return field.registry->kind();
-  }
-  return "";
+  if (field.type == FieldType::strategy) return field.registry->kind();
+  return type_names[static_cast<std::size_t>(field.type)];
 }
 
 std::string default_text(const FieldDoc& field) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <iterator>
 #include <map>
 #include <optional>
@@ -18,6 +19,9 @@ namespace {
 
 constexpr std::array<std::string_view, 9> variation_keys = {
     "methods", "cases", "choose_on", "judge_on", "disturbances", "suite", "share", "variants", "seeds"};
+
+constexpr std::array case_role_names = {"none", "choose", "judge"};
+static_assert(case_role_names.size() == static_cast<std::size_t>(CaseRole::judge) + 1);
 
 /// One end of a range of numbers.
 std::optional<std::uint64_t> end_of_range(const YamlNode& range, const std::string& text, const char* what,
@@ -135,15 +139,7 @@ bool is_variation(std::string_view key) {
 }
 
 const char* to_string(CaseRole role) {
-  switch (role) {
-    case CaseRole::choose:
-      return "choose";
-    case CaseRole::judge:
-      return "judge";
-    case CaseRole::none:
-      break;
-  }
-  return "none";
+  return case_role_names[static_cast<std::size_t>(role)];
 }
 
 std::string name_with_seed(const std::string& name, std::uint64_t seed) {

@@ -2,42 +2,29 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 namespace glocal {
 
+namespace {
+
+constexpr std::array verdict_names = {"searching", "ambiguous", "localized", "unknown_place"};
+static_assert(verdict_names.size() == static_cast<std::size_t>(VerdictKind::unknown_place) + 1);
+
+constexpr std::array setup_fault_names = {"repeated_scans", "upside_down",   "mount_angle", "late_scans",
+                                          "stuck_ranges",   "biased_ranges", "mirrored"};
+static_assert(setup_fault_names.size() == static_cast<std::size_t>(SetupFault::mirrored) + 1);
+
+}  // namespace
+
 const char* to_string(VerdictKind kind) {
-  switch (kind) {
-    case VerdictKind::searching:
-      return "searching";
-    case VerdictKind::ambiguous:
-      return "ambiguous";
-    case VerdictKind::localized:
-      return "localized";
-    case VerdictKind::unknown_place:
-      return "unknown_place";
-  }
-  return "";
+  return verdict_names[static_cast<std::size_t>(kind)];
 }
 
 const char* to_string(SetupFault fault) {
-  switch (fault) {
-    case SetupFault::repeated_scans:
-      return "repeated_scans";
-    case SetupFault::upside_down:
-      return "upside_down";
-    case SetupFault::mount_angle:
-      return "mount_angle";
-    case SetupFault::late_scans:
-      return "late_scans";
-    case SetupFault::stuck_ranges:
-      return "stuck_ranges";
-    case SetupFault::biased_ranges:
-      return "biased_ranges";
-    case SetupFault::mirrored:
-      return "mirrored";
-  }
-  return "";
+  return setup_fault_names[static_cast<std::size_t>(fault)];
 }
 
 std::string SetupCheck::why() const {
