@@ -70,6 +70,12 @@ std::string without_middle(std::string_view text, std::size_t most) {
 
 }  // namespace
 
+std::size_t utf8_length(std::string_view text) {
+  const auto [bytes, code] = first_character(text);
+  // U+FFFD itself has three.
+  return bytes == 1 && code == U'\uFFFD' ? 0 : bytes;
+}
+
 std::string printable(std::string_view text) {
   return escaped(text, true);
 }

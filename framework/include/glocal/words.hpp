@@ -9,6 +9,10 @@
 
 namespace glocal {
 
+/// How many bytes the character has that a text begins with; 0 if they are no UTF-8 (RFC 3629: no overlong
+/// forms, no surrogates, at most U+10FFFF). The text is not empty.
+[[nodiscard]] std::size_t utf8_length(std::string_view text);
+
 /// The text with control characters as \u001b and bytes that are no UTF-8 as U+FFFD. Newlines and tabs stay.
 [[nodiscard]] std::string printable(std::string_view text);
 
