@@ -6,9 +6,9 @@
 
 namespace glocal {
 
-std::vector<CellSum> cell_sums(const Particles& particles, const PoseBinning& binning, std::size_t most) {
+std::vector<Sums<Pose2>> cell_sums(const Particles& particles, const PoseBinning& binning, std::size_t most) {
   const std::vector<Pose2>& poses = particles.poses;
-  std::vector<CellSum> sums;
+  std::vector<Sums<Pose2>> sums;
   std::unordered_map<PoseCell, std::size_t, PoseCellHash> number_of_cell;
   std::size_t sum = 0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -18,10 +18,10 @@ std::vector<CellSum> cell_sums(const Particles& particles, const PoseBinning& bi
       if (is_new) sums.emplace_back();
       sum = it->second;
     }
-    sums[sum].add(poses[i], particles.weights[i]);
+    sums[sum].add(poses[i], std::cos(poses[i].theta), std::sin(poses[i].theta), particles.weights[i]);
   }
   std::stable_sort(sums.begin(), sums.end(),
-                   [](const CellSum& a, const CellSum& b) { return a.weight > b.weight; });
+                   [](const Sums<Pose2>& a, const Sums<Pose2>& b) { return a.weight() > b.weight(); });
   sums.resize(std::min(sums.size(), most));
   return sums;
 }
@@ -29,16 +29,16 @@ std::vector<CellSum> cell_sums(const Particles& particles, const PoseBinning& bi
 std::vector<Hypothesis> hypotheses_of(const Particles& particles, const Pose2& old_from_new,
                                       const ParticleMerging& merging, const ContactIndex& contact,
                                       const LocalMap& local, const Scan& scan, double omega_max) {
-  const std::vector<CellSum> sums = cell_sums(
+  const std::vector<Sums<Pose2>> sums = cell_sums(
       particles, {merging.distance, square_parts_of_a_turn(merging.rotation)}, merging.max_hypotheses);
   const Pose2 robot_from_local = inverse(seen_from_above(local.local_from_robot));
   std::vector<Hypothesis> found;
-  for (const CellSum& sum : sums) {
+  for (const Sums<Pose2>& sum : sums) {
     const Pose2 map_from_robot = sum.mean() * old_from_new;
     const double score = contact.share(scan.hits, Transform(map_from_robot));
     if (score < omega_max) continue;
     const Pose2 map_from_local = map_from_robot * robot_from_local;
-    const auto support = std::lround(sum.weight * static_cast<double>(particles.weights.size()));
+    const auto support = std::lround(sum.weight() * static_cast<double>(particles.weights.size()));
     found.push_back({.map_from_local = map_from_local,
                      .quality = contact.share(local.points, Transform(map_from_local)),
                      .score = score,

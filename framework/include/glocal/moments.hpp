@@ -70,13 +70,16 @@ class Sums;
 template <>
 class Sums<Pose2> {
  public:
+  Sums() = default;
   explicit Sums(const Pose2& /*near*/) {}
-  void add(const Item<Pose2>& item) {
-    weight_ += item.weight;
-    x_ += item.weight * item.pose.x;
-    y_ += item.weight * item.pose.y;
-    cosine_ += item.weight * item.cosine;
-    sine_ += item.weight * item.sine;
+  void add(const Item<Pose2>& item) { add(item.pose, item.cosine, item.sine, item.weight); }
+  /// With the cosine and sine of its heading.
+  void add(const Pose2& pose, double cosine, double sine, double weight) {
+    weight_ += weight;
+    x_ += weight * pose.x;
+    y_ += weight * pose.y;
+    cosine_ += weight * cosine;
+    sine_ += weight * sine;
   }
   [[nodiscard]] double weight() const { return weight_; }
   [[nodiscard]] Pose2 mean() const { return {x_ / weight_, y_ / weight_, std::atan2(sine_, cosine_)}; }

@@ -1,13 +1,13 @@
 // Particles of a filter, told as hypotheses.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <vector>
 
 #include "glocal/contact.hpp"
 #include "glocal/hypothesis.hpp"
 #include "glocal/local_map.hpp"
+#include "glocal/moments.hpp"
 #include "glocal/observation.hpp"
 #include "glocal/params.hpp"
 #include "glocal/pose2.hpp"
@@ -21,24 +21,9 @@ struct Particles {
   std::vector<double> weights;  ///< One for each; they add up to 1.
 };
 
-/// The particles of one cell of poses: their weight, and weighted sums of their poses.
-struct CellSum {
-  double weight = 0.0, x = 0.0, y = 0.0, cosine = 0.0, sine = 0.0;
-
-  void add(const Pose2& pose, double w) {
-    weight += w;
-    x += w * pose.x;
-    y += w * pose.y;
-    cosine += w * std::cos(pose.theta);
-    sine += w * std::sin(pose.theta);
-  }
-  /// The heading is the circular mean.
-  [[nodiscard]] Pose2 mean() const { return {x / weight, y / weight, std::atan2(sine, cosine)}; }
-};
-
-/// Particles by cells, the heaviest `most` of these first.
-[[nodiscard]] std::vector<CellSum> cell_sums(const Particles& particles, const PoseBinning& binning,
-                                             std::size_t most);
+/// Sums of the particles in each cell of poses, the heaviest `most` of these first.
+[[nodiscard]] std::vector<Sums<Pose2>> cell_sums(const Particles& particles, const PoseBinning& binning,
+                                                 std::size_t most);
 
 /// Which particles are one hypothesis: those whose poses lie in one cell.
 struct ParticleMerging {
