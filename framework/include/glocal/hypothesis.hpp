@@ -53,6 +53,8 @@ struct Cluster {
 struct Rating {
   double r = 0.0;             ///< eq. 7, in ]0, 1]
   double r_normalised = 0.0;  ///< eq. 8: r divided by the sum of r over all clusters of the step
+
+  friend bool operator==(const Rating&, const Rating&) = default;
 };
 
 }  // namespace glocal

@@ -50,11 +50,6 @@ class Findings {
   Motion motion_ = Motion::planar;
 };
 
-template <class... Values>
-void expect(bool holds, fmt::format_string<const Values&...> broken, const Values&... values) {
-  if (!holds) throw BrokenContract(fmt::format(broken, values...));
-}
-
 /// Makes the strategy, for a number of threads where it cares.
 template <class Interface>
 using Made = std::function<std::unique_ptr<Interface>(int threads)>;
@@ -78,8 +73,8 @@ void try_mapper(const Made<LocalMapper>& make, const TrialRoom& room, Findings& 
     const auto mapper = make(1);
     mapper->add(room.along_wall(0.0, 17.0));
     check_local_map(mapper->map(), room.motion());
-    expect(mapper->map().local_from_robot == Pose3{},
-           "the robot is not at the origin of the local frame, or is turned there");
+    require(mapper->map().local_from_robot == Pose3{},
+            "the robot is not at the origin of the local frame, or is turned there");
   });
   findings.check("an observation without hits", [&] {
     const auto mapper = make(1);
@@ -89,20 +84,20 @@ void try_mapper(const Made<LocalMapper>& make, const TrialRoom& room, Findings& 
     mapper->add(blind);
     const LocalMap& after = mapper->map();
     check_local_map(after, room.motion());
-    expect(after.epoch == before.epoch && after.points == before.points,
-           "it changes the points; it only moves the robot");
-    expect(distance(after.local_from_robot, before.local_from_robot * Pose2{0.5, 0.0, 0.0}) < 1e-6,
-           "the robot has not moved as odometry has");
+    require(after.epoch == before.epoch && after.points == before.points,
+            "it changes the points; it only moves the robot");
+    require(distance(after.local_from_robot, before.local_from_robot * Pose2{0.5, 0.0, 0.0}) < 1e-6,
+            "the robot has not moved as odometry has");
   });
   findings.check("after reset()", [&] {
     const auto mapper = make(1);
     const LocalMap first = drive(*mapper);
     mapper->reset();
-    expect(mapper->map().points.empty(), "there are {} points still", mapper->map().points.size());
+    require(mapper->map().points.empty(), "there are {} points still", mapper->map().points.size());
     const LocalMap again = drive(*mapper);
-    expect(first.points == again.points && first.ends == again.ends &&
-               first.local_from_robot == again.local_from_robot,
-           "the same observations give another map");
+    require(first.points == again.points && first.ends == again.ends &&
+                first.local_from_robot == again.local_from_robot,
+            "the same observations give another map");
   });
 }
 
@@ -135,20 +130,20 @@ void try_matcher(const Made<Matcher>& make, double epsilon, const TrialRoom& roo
     for (const Hypothesis& h : answer(*make(1)).hypotheses) {
       const double least = surely.share(local.points, h.map_from_local);
       const double most = perhaps.share(local.points, h.map_from_local);
-      expect(h.quality >= least && h.quality <= most,
-             "one has the quality {}, and {} to {} of the local map are within {} m of the map (eq. 4)",
-             h.quality, least, most, epsilon);
+      require(h.quality >= least && h.quality <= most,
+              "one has the quality {}, and {} to {} of the local map are within {} m of the map (eq. 4)",
+              h.quality, least, most, epsilon);
     }
   });
   findings.check("an empty local map", [&] {
     Rng rng(1);
     const auto found = make(1)->match({{}, {}, 0.0}, rng).hypotheses;
-    expect(found.empty(), "there are {} hypotheses; there is none", found.size());
+    require(found.empty(), "there are {} hypotheses; there is none", found.size());
   });
   const auto expect_same = [&](const MatchResult& a, const MatchResult& b, const char* why) {
-    expect(are_equal(a.hypotheses, b.hypotheses) && a.proposals == b.proposals &&
-               a.points_tested == b.points_tested,
-           "{}", why);
+    require(are_equal(a.hypotheses, b.hypotheses) && a.proposals == b.proposals &&
+                a.points_tested == b.points_tested,
+            "{}", why);
   };
   findings.check("two threads", [&] {
     expect_same(answer(*make(1)), answer(*make(2)), "the answer is another one than by one thread");
@@ -171,8 +166,8 @@ void try_clusterer(const Made<Clusterer>& make, Findings& findings) {
   };
   findings.check("clusters", [&] {
     for (const Cluster& cluster : answer(*make(1)))
-      expect(std::is_sorted(cluster.members.begin(), cluster.members.end()),
-             "the members of one do not ascend");
+      require(std::is_sorted(cluster.members.begin(), cluster.members.end()),
+              "the members of one do not ascend");
   });
   findings.check("the same again", [&] {
     const auto clusterer = make(1);
@@ -182,11 +177,11 @@ void try_clusterer(const Made<Clusterer>& make, Findings& findings) {
                                  [](const Cluster& a, const Cluster& b) {
                                    return a.members == b.members && a.map_from_robot == b.map_from_robot;
                                  });
-    expect(same, "the same random state gives other clusters");
+    require(same, "the same random state gives other clusters");
   });
   findings.check("no hypotheses", [&] {
     Rng rng(1);
-    expect(make(1)->cluster({}, rng).empty(), "there are clusters; there is none");
+    require(make(1)->cluster({}, rng).empty(), "there are clusters; there is none");
   });
 }
 
@@ -201,14 +196,10 @@ void try_rater(const Made<Rater>& make, Findings& findings) {
     const auto rater = make(1);
     const auto first = answer(*rater);
     const auto again = answer(*rater);
-    expect(std::equal(first.begin(), first.end(), again.begin(), again.end(),
-                      [](const Rating& a, const Rating& b) {
-                        return a.r == b.r && a.r_normalised == b.r_normalised;
-                      }),
-           "the same clusters have other ratings");
+    require(first == again, "the same clusters have other ratings");
   });
   findings.check("no clusters",
-                 [&] { expect(make(1)->rate({}, {}).empty(), "there are ratings; there is none"); });
+                 [&] { require(make(1)->rate({}, {}).empty(), "there are ratings; there is none"); });
 }
 
 void try_threshold(const Made<ThresholdPolicy>& make, Findings& findings) {
@@ -221,7 +212,8 @@ void try_threshold(const Made<ThresholdPolicy>& make, Findings& findings) {
         policy->update(i < 15 ? trial_hypotheses() : std::vector<Hypothesis>{});
         const double now = policy->omega_max();
         check_threshold(now);
-        expect(now == policy->omega_max(), "it changes when it is asked; it changes in update() and reset()");
+        require(now == policy->omega_max(),
+                "it changes when it is asked; it changes in update() and reset()");
         asked.push_back(now);
       }
       return asked;
@@ -229,9 +221,9 @@ void try_threshold(const Made<ThresholdPolicy>& make, Findings& findings) {
     check_threshold(initial);
     const std::vector<double> first = drive();
     policy->reset();
-    expect(policy->omega_max() == initial, "after reset() it is {}, and was {} at first", policy->omega_max(),
-           initial);
-    expect(drive() == first, "after reset() the same steps give other thresholds");
+    require(policy->omega_max() == initial, "after reset() it is {}, and was {} at first",
+            policy->omega_max(), initial);
+    require(drive() == first, "after reset() the same steps give other thresholds");
   });
 }
 
@@ -239,8 +231,8 @@ void try_verdict_rule(const Made<VerdictRule>& make, Findings& findings) {
   findings.check("a step with nothing in it", [&] {
     const Verdict verdict = make(1)->judge({});
     check_verdict(verdict, Motion::planar);
-    expect(verdict.kind == VerdictKind::searching, "the verdict is {}; it is searching",
-           to_string(verdict.kind));
+    require(verdict.kind == VerdictKind::searching, "the verdict is {}; it is searching",
+            to_string(verdict.kind));
   });
   findings.check("verdicts", [&] {
     const auto rule = make(1);
@@ -251,19 +243,19 @@ void try_verdict_rule(const Made<VerdictRule>& make, Findings& findings) {
       for (step.step = 0; step.step < 20; ++step.step) {
         const Verdict verdict = rule->judge(step);
         check_verdict(verdict, Motion::planar);
-        expect(verdict.candidates.empty() || verdict.kind == VerdictKind::ambiguous,
-               "there are candidates with the verdict {}", to_string(verdict.kind));
-        expect(!verdict.why.empty(), "`why` is empty; a sentence for a person says what speaks for it");
+        require(verdict.candidates.empty() || verdict.kind == VerdictKind::ambiguous,
+                "there are candidates with the verdict {}", to_string(verdict.kind));
+        require(!verdict.why.empty(), "`why` is empty; a sentence for a person says what speaks for it");
         kinds.push_back(verdict.kind);
       }
       return kinds;
     };
     const auto first = drive();
-    expect(drive() == first, "after reset() the same steps have other verdicts");
+    require(drive() == first, "after reset() the same steps have other verdicts");
     const auto declared = std::find(first.begin(), first.end(), VerdictKind::localized);
-    expect(declared == first.end() ||
-               static_cast<std::size_t>(declared - first.begin()) + 1 >= rule->least_steps(),
-           "a pose is declared before the {} steps that least_steps() says", rule->least_steps());
+    require(declared == first.end() ||
+                static_cast<std::size_t>(declared - first.begin()) + 1 >= rule->least_steps(),
+            "a pose is declared before the {} steps that least_steps() says", rule->least_steps());
   });
 }
 
@@ -275,7 +267,7 @@ void try_verifier(const Made<Verifier>& make, const TrialRoom& room, Findings& f
     const auto verifier = make(threads);
     Verification found = verifier->verify(local, declared, {});
     // With all the looks it takes, a search comes to its end.
-    expect(!found.goes_on, "the search goes on, though the step may take as many looks as it likes");
+    require(!found.goes_on, "the search goes on, though the step may take as many looks as it likes");
     check_verification(found, room.motion());
     return found;
   };
@@ -283,9 +275,9 @@ void try_verifier(const Made<Verifier>& make, const TrialRoom& room, Findings& f
     const Verification found = answer(1);
     for (const Hypothesis& rival : found.rivals) {
       const Pose3 other = rival.map_from_local * local.local_from_robot;
-      expect(!found.near.are_near(other, room.map_from_robot()),
-             "one is within {} m and {} rad of the declared pose, where none counts", found.near.translation,
-             found.near.rotation);
+      require(!found.near.are_near(other, room.map_from_robot()),
+              "one is within {} m and {} rad of the declared pose, where none counts", found.near.translation,
+              found.near.rotation);
     }
   });
   findings.check("two threads", [&] {
@@ -294,9 +286,9 @@ void try_verifier(const Made<Verifier>& make, const TrialRoom& room, Findings& f
     const auto at_most = [](const Verification& v) {
       return v.certificate ? v.certificate->at_most : std::numeric_limits<double>::infinity();
     };
-    expect(are_equal(one.rivals, two.rivals) && one.points_tested == two.points_tested &&
-               at_most(one) == at_most(two),
-           "the answer is another one than by one thread");
+    require(are_equal(one.rivals, two.rivals) && one.points_tested == two.points_tested &&
+                at_most(one) == at_most(two),
+            "the answer is another one than by one thread");
   });
 }
 
@@ -321,16 +313,16 @@ void try_contact_index(const ContactIndexes& registry, const StrategyChoice& cho
   const auto index = registry.make(choice, {&walls, epsilon});
   findings.check("points nearer than 0.8 epsilon", [&] {
     const std::size_t n = index->count(near, 0, near.size(), at_rest);
-    expect(n == near.size(), "{} of {} are in contact; all are", n, near.size());
+    require(n == near.size(), "{} of {} are in contact; all are", n, near.size());
   });
   findings.check("points farther than 1.2 epsilon", [&] {
     const std::size_t n = index->count(far, 0, far.size(), at_rest);
-    expect(n == 0, "{} of {} are in contact; none is, and nothing that is not a number", n, far.size());
+    require(n == 0, "{} of {} are in contact; none is, and nothing that is not a number", n, far.size());
   });
   findings.check("count_while()", [&] {
     const std::array<std::uint32_t, 1> least{};
     const auto n = index->count_while(near, 0, near.size(), near.size(), least, at_rest).in_contact;
-    expect(n == near.size(), "it counts {} of {} points, all of which are in contact", n, near.size());
+    require(n == near.size(), "it counts {} of {} points, all of which are in contact", n, near.size());
   });
   findings.check("count_at_most()", [&] {
     MotionBatch motions;
@@ -338,7 +330,7 @@ void try_contact_index(const ContactIndexes& registry, const StrategyChoice& cho
     ContactIndex::BatchColumn begins{};
     ContactIndex::BatchColumn at_most{};
     index->count_at_most(near, 8, motions, 1, begins, at_most);
-    expect(at_most[0] == 8, "it is {} for 8 points, all of which are in contact", at_most[0]);
+    require(at_most[0] == 8, "it is {} for 8 points, all of which are in contact", at_most[0]);
   });
 }
 
@@ -352,11 +344,11 @@ void try_registrar(const CloudRegistrars& registry, const StrategyChoice& choice
     const auto registrar = registry.make(choice, options);
     const Registration first = answer(*registrar);
     const Registration again = answer(*registrar);
-    expect(first.target_from_source == again.target_from_source && first.is_match == again.is_match,
-           "the same clouds give another answer");
-    expect(first.voxel_size > 0.0, "it does not say `voxel_size`");
-    expect(!first.why.empty(), "`why` is empty; a sentence says what speaks for the pose or against it");
-    expect(first.target_from_source || !first.is_match, "there is a match without a pose");
+    require(first.target_from_source == again.target_from_source && first.is_match == again.is_match,
+            "the same clouds give another answer");
+    require(first.voxel_size > 0.0, "it does not say `voxel_size`");
+    require(!first.why.empty(), "`why` is empty; a sentence says what speaks for the pose or against it");
+    require(first.target_from_source || !first.is_match, "there is a match without a pose");
   });
   findings.check("a cloud of one point", [&] {
     Points one;
@@ -384,15 +376,15 @@ bool are_equal(const Sample& a, const Sample& b) {
 void try_source(const Made<ObservationSource>& make, Motion motion, Findings& findings) {
   findings.check("the end", [&] {
     const auto source = make(1);
-    expect(!all_of(*source, motion).empty(), "there is no observation at all");
-    expect(!source->next() && !source->next(), "there is another observation after it");
+    require(!all_of(*source, motion).empty(), "there is no observation at all");
+    require(!source->next() && !source->next(), "there is another observation after it");
   });
   findings.check("the same seed", [&] {
     const auto first = all_of(*make(1), motion);
     const auto again = all_of(*make(1), motion);
-    expect(std::equal(first.begin(), first.end(), again.begin(), again.end(),
-                      [](const Sample& a, const Sample& b) { return are_equal(a, b); }),
-           "it gives another drive");
+    require(std::equal(first.begin(), first.end(), again.begin(), again.end(),
+                       [](const Sample& a, const Sample& b) { return are_equal(a, b); }),
+            "it gives another drive");
   });
 }
 
@@ -401,7 +393,7 @@ void try_map_source(const Made<MapSource>& make, Findings& findings) {
     const MapData first = make(1)->load();
     check_map(first, Motion::planar);
     const MapData again = make(1)->load();
-    expect(
+    require(
         first.points == again.points && first.grid.cells == again.grid.cells && first.origin == again.origin,
         "it gives another map each time");
   });
@@ -419,18 +411,18 @@ void try_link(const Made<MessageLink>& make, Findings& findings) {
   };
   findings.check("a type that is not known", [&] {
     const auto link = make(1);
-    expect(is_refused([&] { link->subscribe(unknown, Delivery::newest); }),
-           "it is subscribed to, without a ConfigError");
-    expect(is_refused([&] { link->publish(unknown, Delivery::newest, {}); }),
-           "it is published, without a ConfigError");
+    require(is_refused([&] { link->subscribe(unknown, Delivery::newest); }),
+            "it is subscribed to, without a ConfigError");
+    require(is_refused([&] { link->publish(unknown, Delivery::newest, {}); }),
+            "it is published, without a ConfigError");
   });
   findings.check("next() without a subscription", [&] {
     using namespace std::chrono;
     const auto link = make(1);
     const auto begin = steady_clock::now();
-    expect(!link->next(milliseconds(100)), "there is a message");
+    require(!link->next(milliseconds(100)), "there is a message");
     const double took = duration<double>(steady_clock::now() - begin).count();
-    expect(took < 1.0, "it took {:.1f} s, and was to take 0.1 s", took);
+    require(took < 1.0, "it took {:.1f} s, and was to take 0.1 s", took);
   });
 }
 
@@ -445,7 +437,7 @@ void try_params(const AnyParams& params, Findings& findings) {
         std::make_shared<const Origin>(Origin{"its parameters", std::filesystem::current_path()});
     if (const auto tree = parse_yaml(text, origin, faults)) read_params(*tree, *copy, faults);
     for (const Fault& fault : faults) throw BrokenContract(fault.message);
-    expect(write_yaml(*copy) == text, "they change on the way through a file");
+    require(write_yaml(*copy) == text, "they change on the way through a file");
   });
 }
 

@@ -11,11 +11,6 @@
 namespace glocal {
 namespace {
 
-template <class... Values>
-void require(bool holds, fmt::format_string<const Values&...> broken, const Values&... values) {
-  if (!holds) throw BrokenContract(fmt::format(broken, values...));
-}
-
 bool is_share(double value) {
   return value >= 0.0 && value <= 1.0;
 }

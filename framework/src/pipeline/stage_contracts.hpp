@@ -3,6 +3,8 @@
 // strategies.hpp. All throw BrokenContract.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <stdexcept>
 #include <vector>
@@ -16,6 +18,12 @@ class BrokenContract : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// Throws what is broken if the clause does not hold.
+template <class... Values>
+void require(bool holds, fmt::format_string<const Values&...> broken, const Values&... values) {
+  if (!holds) throw BrokenContract(fmt::format(broken, values...));
+}
 
 void check_map(const MapData& map, Motion motion);
 void check_sample(const Sample& sample, Motion motion);
