@@ -34,11 +34,11 @@ class Nearness {
     // 1966).
     for (std::size_t row = 0; row < rows_; ++row) {
       if (row > 0) tell_row(at(row - 1), at(row));
-      for (std::size_t n = 1; n <= most; n *= 2) tell_right(at(row), n);
+      for (std::size_t n = 1; n <= most; n *= 2) tell(at(row), n, true);
     }
     for (std::size_t row = rows_; row-- > 0;) {
       if (row + 1 < rows_) tell_row(at(row + 1), at(row));
-      for (std::size_t n = 1; n <= most; n *= 2) tell_left(at(row), n);
+      for (std::size_t n = 1; n <= most; n *= 2) tell(at(row), n, false);
     }
   }
 
@@ -58,21 +58,15 @@ class Nearness {
       to[i] = std::max(to[i], less(std::max(from[i], std::max(left[i], right[i])), 1));
   }
 
-  /// From each cell of a row to the one n cells on. For n = 1, 2, 4, … all are told of all.
-  void tell_right(std::uint8_t* row, std::size_t n) {
+  /// From each cell of a row to the one n cells to the right, or to the left. For n = 1, 2, 4, … all are told
+  /// of all.
+  void tell(std::uint8_t* row, std::size_t n, bool to_right) {
     if (n >= width_) return;
     std::copy(row, row + width_, told_.begin());
-    const std::uint8_t* from = told_.data();
-    std::uint8_t* to = row + n;
+    const std::uint8_t* from = told_.data() + (to_right ? 0 : n);
+    std::uint8_t* to = row + (to_right ? n : 0);
     const auto by = static_cast<std::uint8_t>(n);
     for (std::size_t i = 0; i < width_ - n; ++i) to[i] = std::max(to[i], less(from[i], by));
-  }
-  void tell_left(std::uint8_t* row, std::size_t n) {
-    if (n >= width_) return;
-    std::copy(row, row + width_, told_.begin());
-    const std::uint8_t* from = told_.data() + n;
-    const auto by = static_cast<std::uint8_t>(n);
-    for (std::size_t i = 0; i < width_ - n; ++i) row[i] = std::max(row[i], less(from[i], by));
   }
 
   std::size_t width_, rows_;
