@@ -48,10 +48,7 @@ std::string fault_of_resolution(double metres) {
 
 std::string fault_of_stamp(double seconds) {
   if (std::abs(seconds) <= latest_stamp_s) return "";
-  return fmt::format(
-      "a time stamp of {:g} s is out of range, at most {:g} s before or after 1970 are "
-      "allowed; correct it",
-      seconds, latest_stamp_s);
+  return stamp_fault(seconds);
 }
 
 std::string fault_of_stamp_ns(std::int64_t ns) {

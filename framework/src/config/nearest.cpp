@@ -1,5 +1,7 @@
 #include "config/nearest.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace glocal {
@@ -54,12 +56,7 @@ std::string suggestion(std::string_view word, const std::vector<std::string>& ca
 }
 
 std::string join(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) {
-    if (!text.empty()) text += ", ";
-    text += word;
-  }
-  return text;
+  return fmt::format("{}", fmt::join(words, ", "));
 }
 
 }  // namespace glocal

@@ -148,13 +148,7 @@ void describe(ParamVisitor& v, SetupCheckParams& p) {
 }
 
 void SetupMonitor::reset() {
-  last_.reset();
-  motions_.clear();
-  steps_ = 0;
-  agreement_ = 0.0;
-  bias_ = {};
-  bias_told_at_.reset();
-  stuck_ = {};
+  *this = SetupMonitor(params_);
 }
 
 SetupCheck SetupMonitor::update(const Observation& observation, const LocalMap& local) {
