@@ -5,10 +5,10 @@
 #include <optional>
 #include <set>
 
-#include "config/experiment_params.hpp"
 #include "config/field_docs.hpp"
 #include "config/writer.hpp"
 #include "config/yaml_parser.hpp"
+#include "glocal/experiment.hpp"
 
 namespace glocal {
 namespace {
@@ -26,7 +26,7 @@ std::optional<std::string> choice_of(const std::string& path) {
   static const std::vector<std::string> choices = [] {
     Experiment experiment;
     const Catalog no_strategies;
-    ExperimentParams params(experiment, no_strategies);
+    DescribedBy params([&](ParamVisitor& v) { describe(v, experiment, no_strategies); });
     std::vector<std::string> found;
     add_choices(document(params), "", found);
     return found;

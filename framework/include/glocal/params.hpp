@@ -119,6 +119,20 @@ class AnyParams {
   [[nodiscard]] virtual std::unique_ptr<AnyParams> clone() const = 0;
 };
 
+/// What a function describes, to which each visitor is given.
+template <std::invocable<ParamVisitor&> Describe>
+class DescribedBy final : public AnyParams {
+ public:
+  explicit DescribedBy(Describe describe) : describe_(std::move(describe)) {}
+  void visit(ParamVisitor& visitor) override { describe_(visitor); }
+  [[nodiscard]] std::unique_ptr<AnyParams> clone() const override {
+    return std::make_unique<DescribedBy>(*this);
+  }
+
+ private:
+  Describe describe_;
+};
+
 /// A list of structs, its type forgotten.
 class AnyList {
  public:
@@ -147,13 +161,8 @@ class ParamVisitor {
   /// A struct within a struct.
   template <Described T>
   void field(std::string_view name, T& value, const FieldInfo& info) {
-    struct Ref final : AnyParams {
-      explicit Ref(T& t) : target(&t) {}
-      void visit(ParamVisitor& visitor) override { describe(visitor, *target); }
-      std::unique_ptr<AnyParams> clone() const override { return std::make_unique<Ref>(*target); }
-      T* target;
-    } ref(value);
-    group(name, ref, info);
+    DescribedBy params([&value](ParamVisitor& visitor) { describe(visitor, value); });
+    group(name, params, info);
   }
 
   /// A list of structs; those that are read begin as copies of `fresh`.

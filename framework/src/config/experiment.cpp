@@ -91,28 +91,7 @@ void describe(ParamVisitor& v, LocalizerSection& s) {
           {.doc = "Whether the set-up of the robot is checked by the motions that scans and odometry tell."});
 }
 
-/// The section as a struct of its own.
-class LocalizerParams final : public AnyParams {
- public:
-  LocalizerParams(LocalizerConfig& config, const Catalog& catalog) : section_{&config, &catalog} {}
-  void visit(ParamVisitor& visitor) override { describe(visitor, section_); }
-  [[nodiscard]] std::unique_ptr<AnyParams> clone() const override {
-    return std::make_unique<LocalizerParams>(*this);
-  }
-
- private:
-  LocalizerSection section_;
-};
-
 constexpr Doc plugins_doc = "Modules with further strategies to load.";
-
-/// The one key of an experiment that must be known before the others.
-struct PluginsSection {
-  std::vector<FilePath> plugins;
-};
-void describe(ParamVisitor& v, PluginsSection& s) {
-  v.field("plugins", s.plugins, {.doc = plugins_doc});
-}
 
 /// What an experiment file and overrides say.
 struct ExperimentSources {
@@ -207,7 +186,7 @@ Variant read_variant(YamlNode tree, const VariantChanges& changes, const Catalog
     const std::set<Spot> spots = spots_of(changes.changes);
     for (const Fault& fault : found) faults.insert(fault_of(changes.changes, spots, fault));
   }
-  variant.experiment = std::move(params.file.experiment);
+  variant.experiment = std::move(params.experiment);
   return variant;
 }
 
@@ -309,7 +288,7 @@ void add_variants(const YamlNode& experiment, const Product& product, const std:
   apply_overrides(tree, overrides, params, found);
   read_params(tree, params, found);
   const std::set<Fault> of_base(found.begin(), found.end());
-  Expansion all = expand(params.file.variations, params, found);
+  Expansion all = expand(params.variations, params, found);
   if (!all.seeds.empty()) check_seed(tree, found);
   name_product(product, all);
   // Faults of the parts say more than those of the names that they make.
@@ -318,7 +297,7 @@ void add_variants(const YamlNode& experiment, const Product& product, const std:
   std::erase_if(tree.entries, [](const YamlEntry& entry) { return is_variation(entry.key); });
   const std::size_t first = variants.size();
   if (all.variants.empty()) {
-    variants.push_back({"", std::move(params.file.experiment)});
+    variants.push_back({"", std::move(params.experiment)});
   } else if (can_be_held(tree, all) && first + all.variants.size() <= most_variants) {
     std::vector<Variant> own = read_all(tree, all, catalog, of_base, faults);
     std::move(own.begin(), own.end(), std::back_inserter(variants));
@@ -386,7 +365,7 @@ void join_suite(const YamlNode& experiment, const Products& products, std::vecto
 
 std::string effective_text(Experiment& experiment, const Catalog& catalog,
                            const std::map<std::string, std::string>& comments) {
-  ExperimentParams params(experiment, catalog);
+  DescribedBy params([&](ParamVisitor& v) { describe(v, experiment, catalog); });
   return "# Every value of the experiment, defaulted or not: running this file gives the same results.\n" +
          write_yaml(params, comments);
 }
@@ -520,12 +499,13 @@ Experiment read_experiment(const std::filesystem::path& file, const std::vector<
     read_params(tree, params, faults);
   }
   if (!faults.empty()) throw ConfigError(std::move(faults));
-  return std::move(params.file.experiment);
+  return std::move(params.experiment);
 }
 
 LocalizerConfig read_localizer(const std::vector<Override>& overrides, const Catalog& catalog) {
   LocalizerConfig config = default_experiment().localizer;
-  LocalizerParams params(config, catalog);
+  LocalizerSection section{&config, &catalog};
+  DescribedBy params([&section](ParamVisitor& v) { describe(v, section); });
   YamlNode tree = make_node(NodeKind::map, {std::make_shared<const Origin>(Origin{"localizer", "."}), 0, 0});
   std::vector<Fault> faults;
   apply_overrides(tree, overrides, params, faults);
@@ -564,7 +544,9 @@ std::vector<Variant> read_variants(const std::filesystem::path& file, const std:
 std::vector<FilePath> read_plugins(const std::filesystem::path& file,
                                    const std::vector<Override>& overrides) {
   std::vector<Fault> ignored;
-  ParamsOf<PluginsSection> params;
+  // The one key of an experiment that must be known before the others.
+  std::vector<FilePath> plugins;
+  DescribedBy params([&plugins](ParamVisitor& v) { v.field("plugins", plugins, {.doc = plugins_doc}); });
   ExperimentSources sources = sources_of(file, overrides, params, ignored);
   if (!sources.tree || sources.tree->kind != NodeKind::map) return {};
   const auto leave_plugins = [](YamlNode& tree) {
@@ -579,8 +561,8 @@ std::vector<FilePath> read_plugins(const std::filesystem::path& file,
   std::erase_if(sources.overrides, [](const Override& change) { return change.first != "plugins"; });
   apply_overrides(tree, sources.overrides, params, ignored);
   read_params(tree, params, ignored);
-  std::erase_if(params.value.plugins, [](const FilePath& plugin) { return plugin.resolved.empty(); });
-  return params.value.plugins;
+  std::erase_if(plugins, [](const FilePath& plugin) { return plugin.resolved.empty(); });
+  return plugins;
 }
 
 std::string effective_yaml(Experiment& experiment, const Catalog& catalog) {

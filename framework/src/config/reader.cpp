@@ -117,15 +117,7 @@ class MapReader final : public ParamVisitor {
     list.resize(node->items.size());
     for (std::size_t i = 0; i < node->items.size(); ++i) {
       const std::string path = joined(path_, name) + "[" + std::to_string(i) + "]";
-      struct Item final : AnyParams {
-        Item(AnyList& l, std::size_t n) : items(&l), index(n) {}
-        void visit(ParamVisitor& visitor) override { items->visit(index, visitor); }
-        [[nodiscard]] std::unique_ptr<AnyParams> clone() const override {
-          return std::make_unique<Item>(*this);
-        }
-        AnyList* items;
-        std::size_t index;
-      } item(list, i);
+      DescribedBy item([&list, i](ParamVisitor& visitor) { list.visit(i, visitor); });
       read_struct(node->items[i], path, item, *faults_, other_keys_);
     }
   }

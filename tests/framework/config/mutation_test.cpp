@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <string>
 
-#include "config/experiment_params.hpp"
 #include "config/overrides.hpp"
 #include "config/reader.hpp"
 #include "config/yaml_parser.hpp"
@@ -26,7 +25,7 @@ class Mutation : public testing::Test {
   bool check(const std::string& text) {
     std::vector<Fault> faults;
     Experiment experiment = default_experiment();
-    ExperimentParams params(experiment, catalog_);
+    DescribedBy params([&](ParamVisitor& v) { describe(v, experiment, catalog_); });
     auto tree = parse_yaml(text, origin_of(folder_.path() / "e.yaml"), faults);
     if (tree) {
       apply_overrides(*tree, {{"localizer.matcher.ransam.iterations", "5"}}, params, faults);
