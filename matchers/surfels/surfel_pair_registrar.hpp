@@ -9,7 +9,7 @@ namespace glocal::surfels {
 /// glocal's own way: register_clouds().
 class SurfelPairRegistrar final : public CloudRegistrar {
  public:
-  struct Params {};
+  using Params = NoParams;
 
   SurfelPairRegistrar(const Params& /*params*/, const RegistrationOptions& options) : options_(options) {}
 
@@ -20,6 +20,5 @@ class SurfelPairRegistrar final : public CloudRegistrar {
  private:
   RegistrationOptions options_;
 };
-inline void describe(ParamVisitor& /*v*/, SurfelPairRegistrar::Params& /*p*/) {}
 
 }  // namespace glocal::surfels

@@ -13,7 +13,7 @@ namespace glocal::pcl_plugin {
 /// Exact: the nearest point of the map is nearer than epsilon.
 class PclKdTreeContact final : public ContactIndex {
  public:
-  struct Params {};
+  using Params = NoParams;
 
   PclKdTreeContact(const Params& params, const ContactSetup& setup);
 
@@ -26,6 +26,5 @@ class PclKdTreeContact final : public ContactIndex {
   pcl::KdTreeFLANN<pcl::PointXYZ> tree_;
   float squared_epsilon_;
 };
-inline void describe(ParamVisitor& /*v*/, PclKdTreeContact::Params& /*p*/) {}
 
 }  // namespace glocal::pcl_plugin

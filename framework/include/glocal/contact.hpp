@@ -84,7 +84,7 @@ using ContactIndexes = Registry<ContactIndex, ContactSetup>;
 /// of 32 x 8 x 8, and empty bricks take no memory.
 class BitsetContact final : public ContactIndex {
  public:
-  struct Params {};
+  using Params = NoParams;
 
   /// Throws ConfigError if it would need more than 1 GiB.
   BitsetContact(const Points& points, double epsilon, int threads = 1);
@@ -122,19 +122,15 @@ class BitsetContact final : public ContactIndex {
   std::vector<std::uint32_t> coarse_words_;  ///< The same for 4 x 4 x 4 voxels joined: set if one of them is.
 };
 
-inline void describe(ParamVisitor& /*v*/, BitsetContact::Params& /*p*/) {}
-
 /// A kd-tree over the map's points: exact, and twenty-five times slower.
 class KdTreeContact final : public ContactIndex {
  public:
-  struct Params {};
+  using Params = NoParams;
 
   KdTreeContact(const Points& points, double epsilon);
   KdTreeContact(const Params& /*params*/, const ContactSetup& setup)
       : KdTreeContact(*setup.map_points, setup.epsilon) {}
   ~KdTreeContact() override;
-  KdTreeContact(KdTreeContact&&) noexcept;
-  KdTreeContact& operator=(KdTreeContact&&) noexcept;
 
   [[nodiscard]] std::size_t count(const Points& points, std::size_t begin, std::size_t n,
                                   const Transform& map_from_points) const override;
@@ -144,8 +140,6 @@ class KdTreeContact final : public ContactIndex {
   struct Tree;
   std::unique_ptr<Tree> tree_;
 };
-
-inline void describe(ParamVisitor& /*v*/, KdTreeContact::Params& /*p*/) {}
 
 /// Adds the two above, as `bitset` and `kd_tree`.
 void register_contact_indexes(ContactIndexes& indexes);

@@ -173,11 +173,6 @@ std::vector<std::string> to_tune(const StructDoc& doc) {
   return names;
 }
 
-bool has_expert_fields(const StructDoc& doc) {
-  return std::any_of(doc.fields.begin(), doc.fields.end(),
-                     [](const FieldDoc& field) { return field.info.audience == Audience::expert; });
-}
-
 std::string type_name(const FieldDoc& field) {
   if (field.type == FieldType::strategy) return field.registry->kind();
   return type_names[static_cast<std::size_t>(field.type)];

@@ -82,8 +82,6 @@ struct PathPart {
 
 /// The fields to tune first, by their names; those of a group by their paths.
 [[nodiscard]] std::vector<std::string> to_tune(const StructDoc& doc);
-/// Whether there are fields for experts, apart from those within groups.
-[[nodiscard]] bool has_expert_fields(const StructDoc& doc);
 
 /// "whole number", "list of paths" …
 [[nodiscard]] std::string type_name(const FieldDoc& field);

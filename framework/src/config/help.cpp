@@ -50,8 +50,9 @@ void write_struct(const StructDoc& doc, std::size_t indent, std::string& text) {
   const std::vector<std::string> first = to_tune(doc);
   if (!first.empty()) text += margin + "Tune first: " + join(first) + ".\n\n";
   write_fields(doc, false, indent, text);
-  if (has_expert_fields(doc)) text += "\n" + margin + "For experts:\n\n";
-  write_fields(doc, true, indent, text);
+  std::string for_experts;
+  write_fields(doc, true, indent, for_experts);
+  if (!for_experts.empty()) text += "\n" + margin + "For experts:\n\n" + for_experts;
   write_rules(doc, margin, text);
 }
 

@@ -31,11 +31,6 @@ Fault fault_about(const std::string& path, const Place& place, const std::string
   return fault;
 }
 
-/// Whether a list may have this many items.
-bool has_good_count(const YamlNode& list, const FieldInfo& info) {
-  return list.items.size() >= info.min_items && list.items.size() <= info.max_items;
-}
-
 void read_struct(const YamlNode& node, const std::string& path, AnyParams& params, std::vector<Fault>& faults,
                  OtherKeys other_keys);
 
@@ -226,8 +221,9 @@ class MapReader final : public ParamVisitor {
       refuse(node.place, what, "expected " + expected + ", got " + name_of(node));
       return false;
     }
-    if (has_good_count(node, info)) return true;
-    refuse(node.place, what, "expected " + count_text(info) + ", got " + std::to_string(node.items.size()));
+    const std::size_t n = node.items.size();
+    if (n >= info.min_items && n <= info.max_items) return true;
+    refuse(node.place, what, "expected " + count_text(info) + ", got " + std::to_string(n));
     return false;
   }
 

@@ -76,7 +76,7 @@ class SuiteReader {
       read_.seeds = make_node(NodeKind::scalar, tree.place);
       read_.seeds.text = "1";
     }
-    read_.suite.seeds = seeds_of({std::make_shared<const YamlNode>(read_.seeds)}, faults_);
+    read_.suite.seeds = numbers_of({std::make_shared<const YamlNode>(read_.seeds)}, "seeds", faults_);
     return std::move(read_);
   }
 

@@ -103,9 +103,7 @@ struct Expansion {
 [[nodiscard]] Expansion expand(const Variations& variations, AnyParams& experiment,
                                std::vector<Fault>& faults);
 
-/// The seeds that are written, in their order.
-[[nodiscard]] std::vector<std::uint64_t> seeds_of(const SeedList& list, std::vector<Fault>& faults);
-/// The same of other numbers that are written so; faults call them `what`.
+/// The seeds, or other numbers, that are written, in their order; faults call them `what`.
 [[nodiscard]] std::vector<std::uint64_t> numbers_of(const SeedList& list, const char* what,
                                                     std::vector<Fault>& faults);
 

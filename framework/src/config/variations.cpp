@@ -70,10 +70,6 @@ void check_seed_changes(const std::vector<VariantChanges>& variants, std::vector
 
 }  // namespace
 
-std::vector<std::uint64_t> seeds_of(const SeedList& list, std::vector<Fault>& faults) {
-  return numbers_of(list, "seeds", faults);
-}
-
 std::vector<std::uint64_t> numbers_of(const SeedList& list, const char* what, std::vector<Fault>& faults) {
   std::vector<std::uint64_t> seeds;
   if (!list.written || list.written->kind == NodeKind::null || list.written->kind == NodeKind::invalid)
@@ -147,7 +143,8 @@ std::string name_with_seed(const std::string& name, std::uint64_t seed) {
 }
 
 Expansion expand(const Variations& variations, AnyParams& experiment, std::vector<Fault>& faults) {
-  Expansion all{settings_of(variations.variants, experiment, faults), seeds_of(variations.seeds, faults)};
+  Expansion all{settings_of(variations.variants, experiment, faults),
+                numbers_of(variations.seeds, "seeds", faults)};
   if (!all.seeds.empty()) check_seed_changes(all.variants, faults);
   if (all.variants.empty() && !all.seeds.empty())
     all.variants.push_back({"", variations.seeds.written->place, {}});

@@ -120,7 +120,7 @@ void try_matcher(const Made<Matcher>& make, double epsilon, const TrialRoom& roo
   const auto answer = [&](Matcher& matcher) {
     Rng rng(1);
     MatchResult found = matcher.match({local, latest, omega_max}, rng);
-    check_match(found, omega_max, room.motion());
+    check_hypotheses(found.hypotheses, omega_max, room.motion());
     return found;
   };
   findings.check("hypotheses", [&] {

@@ -14,10 +14,6 @@ constexpr std::array<Corner, 11> corners_of_room = {
     {{0, 0}, {8, 0}, {8, 3}, {7, 3}, {7, 3.6}, {8, 3.6}, {8, 5}, {4, 5}, {4, 9}, {0, 9}, {0, 0}}};
 constexpr double height_of_room = 2.4;  // m
 
-Point point_at(double x, double y, double z) {
-  return as_point({x, y, z});
-}
-
 /// A wall's points at a height.
 void add_walls(Points& points, double spacing, double z) {
   for (std::size_t i = 1; i < corners_of_room.size(); ++i) {
@@ -26,14 +22,14 @@ void add_walls(Points& points, double spacing, double z) {
     const int n = static_cast<int>(std::lround(std::hypot(x1 - x0, y1 - y0) / spacing));
     for (int k = 0; k < n; ++k) {
       const double share = static_cast<double>(k) / n;
-      points.push_back(point_at(std::lerp(x0, x1, share), std::lerp(y0, y1, share), z));
+      points.push_back(as_point({std::lerp(x0, x1, share), std::lerp(y0, y1, share), z}));
     }
   }
 }
 
 void add_floor(Points& points, double spacing, double z) {
   for (double x = spacing; x < 8.0; x += spacing) {
-    for (double y = spacing; y < (x < 4.0 ? 9.0 : 5.0); y += spacing) points.push_back(point_at(x, y, z));
+    for (double y = spacing; y < (x < 4.0 ? 9.0 : 5.0); y += spacing) points.push_back(as_point({x, y, z}));
   }
 }
 

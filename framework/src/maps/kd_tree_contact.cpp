@@ -67,8 +67,6 @@ struct KdTreeContact::Tree {
 KdTreeContact::KdTreeContact(const Points& points, double epsilon)
     : tree_(std::make_unique<Tree>(points, epsilon)) {}
 KdTreeContact::~KdTreeContact() = default;
-KdTreeContact::KdTreeContact(KdTreeContact&&) noexcept = default;
-KdTreeContact& KdTreeContact::operator=(KdTreeContact&&) noexcept = default;
 
 std::size_t KdTreeContact::count(const Points& points, std::size_t begin, std::size_t n,
                                  const Transform& map_from_points) const {

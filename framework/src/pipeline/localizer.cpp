@@ -310,7 +310,7 @@ void Localizer::match(const LocalMap& local, const Observation& latest, StepResu
 }
 
 void Localizer::take_in(MatchResult match, StepResult& result) const {
-  check_match(match, result.omega_max, motion_);
+  check_hypotheses(match.hypotheses, result.omega_max, motion_);
   result.hypotheses = std::move(match.hypotheses);
   std::erase_if(result.hypotheses, [&](const Hypothesis& h) { return !gate_.allows(h.map_from_local); });
   result.is_matching = match.goes_on;

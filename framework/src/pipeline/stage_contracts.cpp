@@ -143,10 +143,6 @@ void check_hypotheses(const std::vector<Hypothesis>& hypotheses, double omega_ma
   }
 }
 
-void check_match(const MatchResult& match, double omega_max, Motion motion) {
-  check_hypotheses(match.hypotheses, omega_max, motion);
-}
-
 void check_clusters(const std::vector<Cluster>& clusters, std::size_t hypotheses, Motion motion) {
   std::vector<char> in_cluster(hypotheses, 0);
   std::size_t members = 0;

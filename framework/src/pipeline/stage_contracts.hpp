@@ -32,7 +32,6 @@ void check_local_map(const LocalMap& local, Motion motion);
 void check_threshold(double omega_max);
 /// Of a matcher: scores fall, and reach omega_max.
 void check_hypotheses(const std::vector<Hypothesis>& hypotheses, double omega_max, Motion motion);
-void check_match(const MatchResult& match, double omega_max, Motion motion);
 void check_clusters(const std::vector<Cluster>& clusters, std::size_t hypotheses, Motion motion);
 void check_ratings(const std::vector<Rating>& ratings, std::size_t clusters);
 void check_verdict(const Verdict& verdict, Motion motion);

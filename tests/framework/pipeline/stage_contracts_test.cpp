@@ -114,7 +114,7 @@ TEST(StageContracts, ThresholdsAreShares) {
 
 TEST(StageContracts, HypothesesHavePlacesAndFallingScoresAboveTheThreshold) {
   const auto check = [](const std::vector<Hypothesis>& hypotheses) {
-    check_match({hypotheses, 1, 1}, 0.5, Motion::planar);
+    check_hypotheses(hypotheses, 0.5, Motion::planar);
   };
   const Hypothesis good = Hypothesis::by_contact(Pose2{1, 2, 3}, 0.8);
   EXPECT_NO_THROW(check({}));
@@ -186,7 +186,7 @@ TEST(StageContracts, VerdictsHaveWhatTheySay) {
 
 TEST(StageContracts, PosesInSpaceHavePlacesAndRotations) {
   const auto check = [](const Pose3& pose, Motion motion = Motion::free) {
-    check_match({{Hypothesis::by_contact(pose, 0.8)}, 1, 1}, 0.5, motion);
+    check_hypotheses({Hypothesis::by_contact(pose, 0.8)}, 0.5, motion);
   };
   const Pose3 tilted({1, 2, 3}, exponential({0.1, -0.2, 0.3}));
   EXPECT_NO_THROW(check(tilted));
@@ -202,7 +202,7 @@ TEST(StageContracts, PosesInSpaceHavePlacesAndRotations) {
 TEST(StageContracts, WhereTheMotionIsPlanarSoAreAllPoses) {
   const auto broken = [](const Pose3& pose, Motion motion) {
     try {
-      check_match({{Hypothesis::by_contact(pose, 0.8)}, 1, 1}, 0.5, motion);
+      check_hypotheses({Hypothesis::by_contact(pose, 0.8)}, 0.5, motion);
     } catch (const BrokenContract& contract) {
       return std::string(contract.what());
     }
