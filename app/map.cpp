@@ -52,8 +52,7 @@ MapData load(const ExperimentOptions& input, Context& context) {
 carmen::LogMap::Params log_map_params(const ExperimentOptions& input) {
   const auto origin = std::make_shared<Origin>(Origin{"map build", std::filesystem::current_path()});
   const Place place{origin};
-  YamlNode path = make_node(NodeKind::scalar, place);
-  path.text = input.file;
+  YamlNode path = make_scalar(place, input.file);
   path.quoted = true;
   YamlNode tree = make_node(NodeKind::map, place);
   tree.entries.push_back({"path", place, std::move(path)});

@@ -19,27 +19,23 @@ struct Disturbance {
   std::uint64_t level = 0;
 };
 
-Fault fault_of(const Place& place, const std::string& message) {
-  return fault_at(place, fmt::format("{}: {}", disturbances_key, message));
-}
-
 std::vector<Disturbance> disturbances_of(const YamlNode& written, std::vector<Fault>& faults) {
   std::vector<Disturbance> all;
   if (written.kind != NodeKind::map) {
-    faults.push_back(fault_of(
-        written.place,
-        "expected `map: {KIND: levels}`, `observations: {KIND: levels}` or both, got " + name_of(written)));
+    add_fault(faults, written.place,
+              "{}: expected `map: {{KIND: levels}}`, `observations: {{KIND: levels}}` or both, got {}",
+              disturbances_key, name_of(written));
     return all;
   }
   for (const YamlEntry& part : written.entries) {
     if (part.key != "map" && part.key != "observations") {
-      faults.push_back(fault_of(
-          part.place, fmt::format("unknown key '{}'; there are map and observations", shown(part.key))));
+      add_fault(faults, part.place, "{}: unknown key '{}'; there are map and observations", disturbances_key,
+                shown(part.key));
       continue;
     }
     if (part.value.kind != NodeKind::map)
-      faults.push_back(fault_of(part.value.place, fmt::format("{}: expected {{KIND: levels}}, got {}",
-                                                              part.key, name_of(part.value))));
+      add_fault(faults, part.value.place, "{}: {}: expected {{KIND: levels}}, got {}", disturbances_key,
+                part.key, name_of(part.value));
     for (const YamlEntry& kind : part.value.entries) {
       for (const std::uint64_t level :
            numbers_of({std::make_shared<const YamlNode>(kind.value)}, disturbances_key, faults))
@@ -53,19 +49,14 @@ std::vector<Disturbance> disturbances_of(const YamlNode& written, std::vector<Fa
 /// written.
 YamlNode disturbed_source(YamlNode source, const Disturbance& by) {
   const Place& place = by.kind.place;
-  const auto scalar = [&](std::string text) {
-    YamlNode node = make_node(NodeKind::scalar, place);
-    node.text = std::move(text);
-    return node;
-  };
   const auto map = [&](std::vector<YamlEntry> entries) {
     YamlNode node = make_node(NodeKind::map, place);
     node.entries = std::move(entries);
     return node;
   };
   YamlNode list = make_node(NodeKind::list, place);
-  list.items = {
-      map({{"kind", place, scalar(by.kind.key)}, {"level", place, scalar(std::to_string(by.level))}})};
+  list.items = {map({{"kind", place, make_scalar(place, by.kind.key)},
+                     {"level", place, make_scalar(place, std::to_string(by.level))}})};
   return map({{"disturbed", place,
                map({{"source", source.place, std::move(source)}, {"by", place, std::move(list)}})}});
 }
@@ -74,7 +65,8 @@ YamlNode disturbed_source(YamlNode source, const Disturbance& by) {
 
 void add_disturbed_cases(const YamlNode& written, std::vector<ExperimentPart>& cases,
                          std::vector<Fault>& faults) {
-  if (cases.empty()) faults.push_back(fault_of(written.place, "there are no cases to disturb; name some"));
+  if (cases.empty())
+    add_fault(faults, written.place, "{}: there are no cases to disturb; name some", disturbances_key);
   const std::vector<Disturbance> all = disturbances_of(written, faults);
   std::vector<ExperimentPart> result;
   for (const ExperimentPart& one_case : cases) {
@@ -88,11 +80,9 @@ void add_disturbed_cases(const YamlNode& written, std::vector<ExperimentPart>& c
         source->value = disturbed_source(std::move(source->value), by);
         result.push_back(std::move(disturbed));
       } else {
-        faults.push_back(
-            fault_of(one_case.place,
-                     fmt::format("the case {} has no {} of its own; write it into the case, not into the "
-                                 "experiment",
-                                 one_case.name, by.part)));
+        add_fault(faults, one_case.place,
+                  "{}: the case {} has no {} of its own; write it into the case, not into the experiment",
+                  disturbances_key, one_case.name, by.part);
       }
     }
   }

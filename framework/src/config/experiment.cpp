@@ -228,9 +228,8 @@ std::vector<Variant> read_all(const YamlNode& tree, const Expansion& all, const 
 void check_seed(const YamlNode& tree, std::vector<Fault>& faults) {
   const YamlEntry* seed = find_entry(tree, "seed");
   if (seed == nullptr || seed->value.place.origin->label == tree.place.origin->label) return;
-  faults.push_back(fault_at(
-      seed->value.place,
-      "seed: the experiment has `seeds`; leave one out (--set seeds=[] leaves out those of the file)"));
+  add_fault(faults, seed->value.place,
+            "seed: the experiment has `seeds`; leave one out (--set seeds=[] leaves out those of the file)");
 }
 
 /// A method with a case; null where the experiment says these itself.
@@ -272,10 +271,10 @@ void check_names_of_all(const YamlNode& experiment, const std::vector<Variant>& 
   std::set<std::string_view> names;
   for (const Variant& variant : variants) {
     if (names.insert(variant.name).second) continue;
-    faults.insert(fault_at(
-        experiment.place, fmt::format("methods, cases: two of their products have the name '{}'; give one of "
-                                      "the parts another name (NAME: file)",
-                                      variant.name)));
+    add_fault(faults, experiment.place,
+              "methods, cases: two of their products have the name '{}'; give one of the parts another name "
+              "(NAME: file)",
+              variant.name);
   }
 }
 
@@ -302,11 +301,10 @@ void add_variants(const YamlNode& experiment, const Product& product, const std:
     std::vector<Variant> own = read_all(tree, all, catalog, of_base, faults);
     std::move(own.begin(), own.end(), std::back_inserter(variants));
   } else {
-    faults.insert(
-        fault_at(all.variants.front().place,
-                 fmt::format("variants: are more than {}, or have more than 20 million values together; "
-                             "leave some out, or shorten the lists of the experiment",
-                             most_variants)));
+    add_fault(faults, all.variants.front().place,
+              "variants: are more than {}, or have more than 20 million values together; leave some out, or "
+              "shorten the lists of the experiment",
+              most_variants);
   }
   if (product.method == nullptr) return;
   for (std::size_t i = first; i < variants.size(); ++i)
@@ -338,19 +336,18 @@ bool are_countable(const Suite& suite, const std::vector<Variant>& variants) {
 void join_suite(const YamlNode& experiment, const Products& products, std::vector<Variant>& variants,
                 std::set<Fault>& faults) {
   if (products.share < 1.0 && !are_countable(*products.suite, variants)) {
-    faults.insert(fault_at(experiment.place,
-                           fmt::format("share: {} pins more than five million starts for all methods and "
-                                       "seeds; name some of its cases, or fewer methods",
-                                       products.suite->id())));
+    add_fault(faults, experiment.place,
+              "share: {} pins more than five million starts for all methods and seeds; name some of its "
+              "cases, or fewer methods",
+              products.suite->id());
     return;
   }
   for (Variant& variant : variants) {
     variant.suite = products.suite;
     variant.share = products.share;
     if (variant.changes_trials)
-      faults.insert(
-          fault_at(experiment.place, fmt::format("variant '{}': changes the trials of {}; leave that out",
-                                                 variant.name, products.suite->id())));
+      add_fault(faults, experiment.place, "variant '{}': changes the trials of {}; leave that out",
+                variant.name, products.suite->id());
     if (products.share >= 1.0) continue;
     const auto starts = starts_in_share(*products.suite->find_case(variant.case_name),
                                         variant.experiment.seed, products.share);
@@ -359,8 +356,8 @@ void join_suite(const YamlNode& experiment, const Products& products, std::vecto
   if (products.share >= 1.0) return;
   std::erase_if(variants, [](const Variant& variant) { return variant.experiment.trials.only.empty(); });
   if (variants.empty())
-    faults.insert(fault_at(experiment.place, fmt::format("share: {:g} of {} has no start; take more of it",
-                                                         products.share, products.suite->id())));
+    add_fault(faults, experiment.place, "share: {:g} of {} has no start; take more of it", products.share,
+              products.suite->id());
 }
 
 std::string effective_text(Experiment& experiment, const Catalog& catalog,
@@ -484,10 +481,8 @@ Experiment read_experiment(const std::filesystem::path& file, const std::vector<
   const ExperimentSources sources = sources_of(file, overrides, params, faults);
   const auto only = [&](PartKind kind, const std::vector<ExperimentPart>& parts) {
     if (parts.size() > 1)
-      faults.push_back(
-          fault_at(parts[1].place, fmt::format("the experiment has several {0}s; name one of them: "
-                                               "--{0} {1}",
-                                               to_string(kind), parts[0].name)));
+      add_fault(faults, parts[1].place, "the experiment has several {0}s; name one of them: --{0} {1}",
+                to_string(kind), parts[0].name);
     return parts.empty() ? nullptr : &parts.front();
   };
   const auto* method = only(PartKind::method, sources.products.methods);

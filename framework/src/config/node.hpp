@@ -1,6 +1,8 @@
 // A YAML document as a small tree in which everything knows where it was written.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <filesystem>
 #include <memory>
@@ -57,6 +59,12 @@ struct YamlEntry {
   return node;
 }
 
+[[nodiscard]] inline YamlNode make_scalar(Place place, std::string text) {
+  YamlNode node = make_node(NodeKind::scalar, std::move(place));
+  node.text = std::move(text);
+  return node;
+}
+
 /// Null if the map has no such key.
 template <class MapNode>
 [[nodiscard]] auto* find_entry(MapNode& map, std::string_view key) {
@@ -68,6 +76,13 @@ template <class MapNode>
 
 [[nodiscard]] inline Fault fault_at(const Place& place, std::string message) {
   return {place.origin->label, place.line, place.column, std::move(message)};
+}
+
+/// Adds a fault to a list or a set of them, with a message as fmt::format() makes it.
+template <class Faults, class... Values>
+void add_fault(Faults& faults, const Place& place, fmt::format_string<const Values&...> message,
+               const Values&... values) {
+  faults.insert(faults.end(), fault_at(place, fmt::format(message, values...)));
 }
 
 /// The node and all below it.

@@ -100,8 +100,7 @@ void put(YamlNode& tree, Path path, const std::vector<bool>& is_strategy, YamlNo
     const bool in_strategy = i > 0 && is_strategy[i - 1];
     if (!make_map(*node, place, in_strategy, path[i])) {
       const std::string at = i == 0 ? "the file" : "'" + path[i - 1] + "'";
-      faults.push_back(
-          fault_at(place, "cannot set '" + path[i] + "': " + at + " is not a map but " + name_of(*node)));
+      add_fault(faults, place, "cannot set '{}': {} is not a map but {}", path[i], at, name_of(*node));
       return;
     }
     if (in_strategy && find_entry(*node, path[i]) == nullptr) node->entries.clear();
@@ -116,12 +115,12 @@ void apply_change(YamlNode& tree, const std::string& path, YamlNode value, const
                   AnyParams& params, std::vector<Fault>& faults) {
   const auto parts = split(path);
   if (!parts) {
-    faults.push_back(fault_at(place, "the path has an empty part; write it as a.b.c"));
+    add_fault(faults, place, "the path has an empty part; write it as a.b.c");
     return;
   }
   if (parts->size() > most_parts) {
-    faults.push_back(fault_at(place, fmt::format("the path has {} parts; no value lies deeper than {}",
-                                                 parts->size(), most_parts)));
+    add_fault(faults, place, "the path has {} parts; no value lies deeper than {}", parts->size(),
+              most_parts);
     return;
   }
   std::vector<bool> is_strategy(parts->size(), false);

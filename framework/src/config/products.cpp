@@ -62,14 +62,12 @@ void check_keys(PartKind kind, const std::string& name, const YamlNode& part, co
     const std::string why = is_key_of(other, entry.key)
                                 ? fmt::format("'{}' belongs into a {}", entry.key, to_string(other))
                                 : fmt::format("unknown key '{}'", shown(entry.key));
-    faults.push_back(fault_at(entry.place, fmt::format("{} {}: {}; a {} has {}", to_string(kind), shown(name),
-                                                       why, to_string(kind), keys)));
+    add_fault(faults, entry.place, "{0} {1}: {2}; a {0} has {3}", to_string(kind), shown(name), why, keys);
   }
   if (find_entry(part, extends_key) != nullptr) return;
   const auto require = [&](const char* key) {
     if (find_entry(part, key) == nullptr && find_entry(experiment, key) == nullptr)
-      faults.push_back(
-          fault_at(part.place, fmt::format("{} {}: missing key '{}'", to_string(kind), shown(name), key)));
+      add_fault(faults, part.place, "{} {}: missing key '{}'", to_string(kind), shown(name), key);
   };
   if (kind == PartKind::method) return require("localizer");
   for (const char* key : {"map", "observations", "trials"}) require(key);
@@ -132,24 +130,20 @@ class PartReader {
       : experiment_(experiment), params_(params), faults_(faults) {}
 
   [[nodiscard]] YamlNode read(PartKind kind, const std::string& name, const YamlNode& value, int depth = 0) {
-    YamlNode part = value;
-    if (value.kind == NodeKind::null) {
-      part = make_node(NodeKind::scalar, value.place);
-      part.text = name;
-    }
+    YamlNode part = value.kind == NodeKind::null ? make_scalar(value.place, name) : value;
     if (part.kind == NodeKind::scalar) part = from_file(kind, part);
     if (part.kind == NodeKind::invalid) return part;
     if (part.kind != NodeKind::map)
-      return refuse(part.place, fmt::format("{} {}: expected a map, a file or a name, got {}",
-                                            to_string(kind), shown(name), name_of(part)));
+      return refuse(part.place, "{} {}: expected a map, a file or a name, got {}", to_string(kind),
+                    shown(name), name_of(part));
     check_keys(kind, name, part, experiment_, faults_);
     const auto base = take(part, extends_key);
     if (!base) return part;
     constexpr int deepest = 8;
     if (depth >= deepest)
-      return refuse(base->place, fmt::format("{} {}: extends another one, and that another one, {} times; "
-                                             "does one extend itself?",
-                                             to_string(kind), shown(name), deepest));
+      return refuse(base->place,
+                    "{} {}: extends another one, and that another one, {} times; does one extend itself?",
+                    to_string(kind), shown(name), deepest);
     YamlNode tree = read(kind, base->text, *base, depth + 1);
     if (tree.kind == NodeKind::map) lay_over(tree, part, params_, faults_);
     return tree;
@@ -170,10 +164,8 @@ class PartReader {
       } else if (item.kind == NodeKind::map && item.entries.size() == 1) {
         add(kind, item.entries.front(), role, parts);
       } else if (item.kind != NodeKind::invalid) {
-        faults_.push_back(
-            fault_at(item.place, fmt::format("{}: expected the name of a {}, its file or `name: "
-                                             "{{keys}}`, got {}",
-                                             key, to_string(kind), name_of(item))));
+        add_fault(faults_, item.place, "{}: expected the name of a {}, its file or `name: {{keys}}`, got {}",
+                  key, to_string(kind), name_of(item));
       }
     }
   }
@@ -183,14 +175,14 @@ class PartReader {
     const std::string& name = entry.key;
     const auto is_same = [&](const ExperimentPart& part) { return part.name == name; };
     if (!is_folder_name(name)) {
-      refuse(entry.place,
-             fmt::format("'{}' is no name for a {}: at most 100 letters, digits, '_', '-' and '.', "
-                         "beginning with a letter, a digit or '_'",
-                         shown(name), to_string(kind)));
+      add_fault(faults_, entry.place,
+                "'{}' is no name for a {}: at most 100 letters, digits, '_', '-' and '.', beginning with a "
+                "letter, a digit or '_'",
+                shown(name), to_string(kind));
     } else if (std::any_of(parts.begin(), parts.end(), is_same)) {
-      refuse(entry.place,
-             fmt::format("the {} '{}' is there twice; give each once, or names of their own (NAME: file)",
-                         to_string(kind), name));
+      add_fault(faults_, entry.place,
+                "the {} '{}' is there twice; give each once, or names of their own (NAME: file)",
+                to_string(kind), name);
     } else {
       parts.push_back({name, entry.place, read(kind, name, entry.value), role});
     }
@@ -204,8 +196,10 @@ class PartReader {
     return tree && faults_.size() == before ? *std::move(tree) : make_node(NodeKind::invalid, text.place);
   }
 
-  YamlNode refuse(const Place& place, std::string message) {
-    faults_.push_back(fault_at(place, std::move(message)));
+  template <class... Values>
+  [[nodiscard]] YamlNode refuse(const Place& place, fmt::format_string<const Values&...> message,
+                                const Values&... values) {
+    add_fault(faults_, place, message, values...);
     return make_node(NodeKind::invalid, place);
   }
 
@@ -220,8 +214,7 @@ std::optional<YamlNode> take_suite(YamlNode& experiment, Products& products, std
   const auto named = take(experiment, "suite");
   const auto share = take(experiment, "share");
   if (!named) {
-    if (share)
-      faults.push_back(fault_at(share->place, "share: is one of a suite's starts; name the suite, too"));
+    if (share) add_fault(faults, share->place, "share: is one of a suite's starts; name the suite, too");
     return std::nullopt;
   }
   products.given = true;
@@ -230,22 +223,19 @@ std::optional<YamlNode> take_suite(YamlNode& experiment, Products& products, std
   const Suite& suite = read->suite;
   for (const YamlEntry& own : experiment.entries) {
     if (is_key_of_suite(own.key))
-      faults.push_back(
-          fault_at(own.place, fmt::format("{}: {} has its own; leave it out", own.key, suite.id())));
+      add_fault(faults, own.place, "{}: {} has its own; leave it out", own.key, suite.id());
   }
   if (share) {
     const Refusal why = take_value(*share, {.doc = "", .max = 1.0, .above = 0.0}, products.share);
-    if (why) faults.push_back(fault_at(share->place, "share: " + *why));
+    if (why) add_fault(faults, share->place, "share: {}", *why);
     if (!suite.is_pinned)
-      faults.push_back(
-          fault_at(share->place, fmt::format("share: {} does not say yet how many starts it has; "
-                                             "glocal leaderboard pin tells what to add",
-                                             suite.id())));
+      add_fault(faults, share->place,
+                "share: {} does not say yet how many starts it has; glocal leaderboard pin tells what to add",
+                suite.id());
   }
   if (find_entry(experiment, "name") == nullptr) {
-    YamlNode name = make_node(NodeKind::scalar, named->place);
-    name.text = fmt::format("{}-{}", suite.name, suite.version);
-    experiment.entries.push_back({"name", named->place, std::move(name)});
+    const std::string name = fmt::format("{}-{}", suite.name, suite.version);
+    experiment.entries.push_back({"name", named->place, make_scalar(named->place, name)});
   }
   experiment.entries.push_back({"seeds", named->place, std::move(read->seeds)});
   if (read->disturbances.kind != NodeKind::null)
@@ -278,11 +268,11 @@ std::shared_ptr<const Suite> with_values(const Suite& suite, const std::vector<E
     const std::string& now = result.cases.back().values;
     if (pinned != nullptr) result.cases.back().starts = pinned->starts;
     if (pinned != nullptr && pinned->values == now) continue;
-    faults.push_back(
-        fault_at(part.place,
-                 fmt::format("the case {} is not that of {}: its values have the hash {}, and {} is pinned; "
-                             "bring them back, or make another version of the suite",
-                             part.name, suite.id(), now, pinned == nullptr ? "none" : pinned->values)));
+    add_fault(
+        faults, part.place,
+        "the case {} is not that of {}: its values have the hash {}, and {} is pinned; bring them back, "
+        "or make another version of the suite",
+        part.name, suite.id(), now, pinned == nullptr ? "none" : pinned->values);
   }
   return std::make_shared<const Suite>(std::move(result));
 }
@@ -296,8 +286,8 @@ void choose_cases(const YamlNode& names, const Suite& suite, std::vector<Experim
   for (const YamlNode& name : names.kind == NodeKind::list ? names.items : std::vector{names}) {
     chosen.push_back(name.text);
     if (!has(all, name.text))
-      faults.push_back(fault_at(name.place, fmt::format("{} has no case '{}'{}", suite.id(), shown(name.text),
-                                                        suggestion(name.text, all, "there are"))));
+      add_fault(faults, name.place, "{} has no case '{}'{}", suite.id(), shown(name.text),
+                suggestion(name.text, all, "there are"));
   }
   std::erase_if(cases, [&](const ExperimentPart& part) { return !has(chosen, part.name); });
 }
@@ -309,7 +299,7 @@ std::optional<fs::path> part_file(PartKind kind, const YamlNode& value, std::vec
   const fs::path beside = value.place.origin->folder / text;
   if (is_file_name(text)) {
     if (const auto why = why_unreadable(beside)) {
-      faults.push_back(fault_at(value.place, fmt::format("{}: {}", to_string(kind), *why)));
+      add_fault(faults, value.place, "{}: {}", to_string(kind), *why);
       return std::nullopt;
     }
     return beside;
@@ -317,16 +307,14 @@ std::optional<fs::path> part_file(PartKind kind, const YamlNode& value, std::vec
   const auto builtin = find_builtin_part(kind, text);
   std::error_code ignored;
   if (builtin && fs::is_regular_file(beside, ignored)) {
-    faults.push_back(
-        fault_at(value.place, fmt::format("'{0}' is a {1} that is built in and a file, too; write "
-                                          "./{0} for the file, or rename it",
-                                          text, to_string(kind))));
+    add_fault(faults, value.place,
+              "'{0}' is a {1} that is built in and a file, too; write ./{0} for the file, or rename it", text,
+              to_string(kind));
     return std::nullopt;
   }
   if (builtin) return builtin->file;
-  faults.push_back(
-      fault_at(value.place, fmt::format("unknown {} '{}'{}; files are named with .yaml", to_string(kind),
-                                        shown(text), suggestion(text, names_of(kind), "built in are"))));
+  add_fault(faults, value.place, "unknown {} '{}'{}; files are named with .yaml", to_string(kind),
+            shown(text), suggestion(text, names_of(kind), "built in are"));
   return std::nullopt;
 }
 
@@ -371,25 +359,21 @@ Products take_products(YamlNode& experiment, AnyParams& params, std::vector<Faul
     const auto named = take(experiment, key);
     if (!named) continue;
     if (!products.cases.empty() && products.cases.front().role == CaseRole::none)
-      faults.push_back(
-          fault_at(named->place, fmt::format("{}: there is `cases`, too; leave it out, or write all "
-                                             "cases into choose_on and judge_on",
-                                             key)));
+      add_fault(faults, named->place,
+                "{}: there is `cases`, too; leave it out, or write all cases into choose_on and judge_on",
+                key);
     add(PartKind::the_case, key, *named, role);
   }
   if (!of_suite) disturb();
   if (!products.cases.empty() && products.cases.front().role == CaseRole::judge)
-    faults.push_back(fault_at(products.cases.front().place,
-                              "judge_on: there is no choose_on; say there by which cases to choose what is "
-                              "judged here"));
+    add_fault(faults, products.cases.front().place,
+              "judge_on: there is no choose_on; say there by which cases to choose what is judged here");
   return products;
 }
 
 YamlNode read_method(const std::string& name, AnyParams& params) {
   std::vector<Fault> faults;
-  YamlNode value =
-      make_node(NodeKind::scalar, {std::make_shared<const Origin>(Origin{"--method " + name, "."}), 0, 0});
-  value.text = name;
+  const YamlNode value = make_scalar({std::make_shared<const Origin>(Origin{"--method " + name, "."})}, name);
   const YamlNode no_experiment = make_node(NodeKind::map, value.place);
   YamlNode method = PartReader(no_experiment, params, faults).read(PartKind::method, name, value);
   if (!faults.empty()) throw ConfigError(std::move(faults));

@@ -87,12 +87,12 @@ std::optional<std::string> why_no_range(const YamlNode& value) {
 const YamlNode* choices_of(const YamlNode& value, std::vector<Fault>& faults) {
   for (const YamlEntry& entry : value.entries) {
     if (entry.key != "choices")
-      faults.push_back(fault_at(entry.place, "choices stand alone; leave '" + entry.key + "' out"));
+      add_fault(faults, entry.place, "choices stand alone; leave '{}' out", entry.key);
   }
   const YamlNode& list = find_entry(value, "choices")->value;
   if (list.kind == NodeKind::list && !list.items.empty()) return &list;
-  faults.push_back(fault_at(list.place, "choices: expected a list of values, got " +
-                                            (list.kind == NodeKind::list ? counted(0) : name_of(list))));
+  add_fault(faults, list.place, "choices: expected a list of values, got {}",
+            list.kind == NodeKind::list ? counted(0) : name_of(list));
   return nullptr;
 }
 
@@ -100,7 +100,7 @@ std::optional<Range> read_range(const YamlEntry& entry, AnyParams& experiment, s
   const YamlNode& value = entry.value;
   if (value.kind == NodeKind::invalid) return std::nullopt;
   if (const auto why = why_no_range(value)) {
-    faults.push_back(fault_at(value.place, *why));
+    add_fault(faults, value.place, "{}", *why);
     return std::nullopt;
   }
   if (find_entry(value, "choices") != nullptr) {
@@ -111,8 +111,8 @@ std::optional<Range> read_range(const YamlEntry& entry, AnyParams& experiment, s
   const std::optional<PathEnd> end = find_path(experiment, entry.key);
   const FieldDoc* field = end && end->strategy == nullptr ? &end->field : nullptr;
   if (field != nullptr && !is_number(field->type)) {
-    faults.push_back(fault_at(value.place, "expected {choices: [a, b]}, as the values are not numbers (" +
-                                               type_name(*field) + ")"));
+    add_fault(faults, value.place, "expected {{choices: [a, b]}}, as the values are not numbers ({})",
+              type_name(*field));
     return std::nullopt;
   }
   ParamsOf<Ends> params;
@@ -168,9 +168,8 @@ std::shared_ptr<const YamlNode> value_at(const Range& range, double u,
     const auto n = static_cast<double>(range.choices->items.size());
     return {written, &range.choices->items[static_cast<std::size_t>(u * n)]};
   }
-  auto node = std::make_shared<YamlNode>(make_node(NodeKind::scalar, range.written->value.place));
-  node->text = range.ends.is_whole ? whole_at(range.ends, u) : number_at(range.ends, u);
-  return node;
+  return std::make_shared<const YamlNode>(make_scalar(
+      range.written->value.place, range.ends.is_whole ? whole_at(range.ends, u) : number_at(range.ends, u)));
 }
 
 /// Points one after the other, by their coordinates, each in [0, 1).
@@ -211,17 +210,15 @@ bool can_draw(const SampleSection& section, std::vector<Fault>& faults) {
   const YamlNode& written = *section.ranges.written;
   const std::size_t n = written.entries.size();
   if (section.sobol && n > most_dimensions) {
-    faults.push_back(
-        fault_at(written.place,
-                 fmt::format("variants.sample: {} ranges, but Sobol's sequence has at most {} dimensions "
-                             "here; leave some out, or draw at random with sobol: false",
-                             n, most_dimensions)));
+    add_fault(faults, written.place,
+              "variants.sample: {} ranges, but Sobol's sequence has at most {} dimensions here; leave some "
+              "out, or draw at random with sobol: false",
+              n, most_dimensions);
     return false;
   }
   if (n * static_cast<std::size_t>(section.count) <= most_changes) return true;
-  faults.push_back(
-      fault_at(written.place, fmt::format("variants.sample: changes {} values in all; draw fewer points",
-                                          n * static_cast<std::size_t>(section.count))));
+  add_fault(faults, written.place, "variants.sample: changes {} values in all; draw fewer points",
+            n * static_cast<std::size_t>(section.count));
   return false;
 }
 

@@ -72,10 +72,7 @@ class SuiteReader {
                    shown(entry.key)));
       }
     }
-    if (read_.seeds.kind == NodeKind::null) {
-      read_.seeds = make_node(NodeKind::scalar, tree.place);
-      read_.seeds.text = "1";
-    }
+    if (read_.seeds.kind == NodeKind::null) read_.seeds = make_scalar(tree.place, "1");
     read_.suite.seeds = numbers_of({std::make_shared<const YamlNode>(read_.seeds)}, "seeds", faults_);
     return std::move(read_);
   }
@@ -192,7 +189,7 @@ std::optional<SuiteFile> read_suite_file(const YamlNode& value, std::vector<Faul
   const auto [text, version] = split(value.text);
   name.text = text;
   if (value.kind != NodeKind::scalar) {
-    faults.push_back(fault_at(value.place, "suite: expected a name or a file, got " + name_of(value)));
+    add_fault(faults, value.place, "suite: expected a name or a file, got {}", name_of(value));
     return std::nullopt;
   }
   const auto file = part_file(PartKind::suite, name, faults);
@@ -200,22 +197,19 @@ std::optional<SuiteFile> read_suite_file(const YamlNode& value, std::vector<Faul
   const std::size_t before = faults.size();
   const auto tree = parse_yaml(read_text_file(*file), origin_of(*file), faults);
   if (tree && tree->kind != NodeKind::map)
-    faults.push_back(fault_at(tree->place, "suite: expected a map, got " + name_of(*tree)));
+    add_fault(faults, tree->place, "suite: expected a map, got {}", name_of(*tree));
   if (!tree || faults.size() > before) return std::nullopt;
   SuiteFile read = SuiteReader(faults).read(*tree, *file);
   if (!version.empty() && version != std::to_string(read.suite.version))
-    faults.push_back(fault_at(
-        value.place, fmt::format("suite: there is no {}; there is {}", shown(value.text), read.suite.id())));
+    add_fault(faults, value.place, "suite: there is no {}; there is {}", shown(value.text), read.suite.id());
   if (faults.size() > before) return std::nullopt;
   return read;
 }
 
 Suite read_suite(const std::string& name) {
-  YamlNode value =
-      make_node(NodeKind::scalar, {std::make_shared<const Origin>(Origin{"--suite " + name, "."}), 0, 0});
-  value.text = name;
+  const auto origin = std::make_shared<const Origin>(Origin{"--suite " + name, "."});
   std::vector<Fault> faults;
-  auto read = read_suite_file(value, faults);
+  auto read = read_suite_file(make_scalar({origin}, name), faults);
   if (!read) throw ConfigError(std::move(faults));
   return std::move(read->suite);
 }

@@ -53,9 +53,8 @@ std::string text_of(const YamlNode& value) {
 
 void check_path(const YamlEntry& entry, const std::string& key, std::vector<Fault>& faults) {
   if (!is_fixed(entry.key)) return;
-  faults.push_back(
-      fault_at(entry.place, fmt::format("{}: '{}' is the same for all variants and cannot be changed", key,
-                                        entry.key.substr(0, entry.key.find('.')))));
+  add_fault(faults, entry.place, "{}: '{}' is the same for all variants and cannot be changed", key,
+            entry.key.substr(0, entry.key.find('.')));
 }
 
 std::vector<Axis> axes_of(const ListedChanges& changes, std::vector<Fault>& faults) {
@@ -96,8 +95,7 @@ bool are_too_many(std::size_t points, const std::vector<Axis>& axes, const char*
   if (points <= most_variants && changes <= most_changes) return false;
   const std::string excess = points > most_variants ? fmt::format("has more than {} {}", most_variants, what)
                                                     : fmt::format("changes {} values in all", changes);
-  faults.push_back(fault_at(axes.front().written->place,
-                            fmt::format("variants.{}: {}; leave some values out", section, excess)));
+  add_fault(faults, axes.front().written->place, "variants.{}: {}; leave some values out", section, excess);
   return true;
 }
 
@@ -106,10 +104,8 @@ void add_list(const NamedChanges& list, std::vector<VariantChanges>& variants, s
   if (!list.written) return;
   const std::size_t size = list.written->entries.size();
   if (size > most_variants) {
-    faults.push_back(
-        fault_at(list.written->place,
-                 fmt::format("variants.list: has {} variants, at most {} are allowed; leave some out", size,
-                             most_variants)));
+    add_fault(faults, list.written->place,
+              "variants.list: has {} variants, at most {} are allowed; leave some out", size, most_variants);
     return;
   }
   for (const YamlEntry& named : list.written->entries) {
@@ -146,10 +142,9 @@ void add_zip(const ListedChanges& zip, std::vector<VariantChanges>& variants, st
   for (const Axis& axis : axes) {
     if (axis.size() == rows) continue;
     even = false;
-    faults.push_back(
-        fault_at(axis.written->value.place,
-                 fmt::format("variants.zip: {} values for '{}', but {} for '{}'; give equally many",
-                             axis.size(), axis.written->key, rows, axes.front().written->key)));
+    add_fault(faults, axis.written->value.place,
+              "variants.zip: {} values for '{}', but {} for '{}'; give equally many", axis.size(),
+              axis.written->key, rows, axes.front().written->key);
   }
   for (std::size_t row = 0; even && row < rows; ++row) {
     variants.push_back(point(axes, std::vector<std::size_t>(axes.size(), row), zip.written));
@@ -162,14 +157,13 @@ void check_settings(const std::vector<VariantChanges>& variants, std::vector<Fau
   for (const VariantChanges& variant : variants) {
     const auto [first, is_new] = first_lines.try_emplace(variant.setting, variant.place.line);
     if (!is_new) {
-      faults.push_back(fault_at(variant.place, fmt::format("variants: '{}' is there twice (first in line {})",
-                                                           variant.setting, first->second)));
+      add_fault(faults, variant.place, "variants: '{}' is there twice (first in line {})", variant.setting,
+                first->second);
     } else if (!is_folder_name(variant.setting)) {
-      faults.push_back(
-          fault_at(variant.place, fmt::format("variants: '{}' is no name for a folder: at most 100 letters, "
-                                              "digits, '_', '-' and '.', beginning with a letter, a digit or "
-                                              "'_'; variants.list lets you choose names",
-                                              variant.setting)));
+      add_fault(faults, variant.place,
+                "variants: '{}' is no name for a folder: at most 100 letters, digits, '_', '-' and '.', "
+                "beginning with a letter, a digit or '_'; variants.list lets you choose names",
+                variant.setting);
     }
   }
 }
@@ -188,16 +182,15 @@ const std::vector<YamlEntry>& checked_paths(const YamlNode& map, const std::stri
   constexpr std::size_t longest_path = 1000;
   static const std::vector<YamlEntry> none;
   if (map.entries.size() > most_paths) {
-    faults.push_back(
-        fault_at(map.place, fmt::format("{}: {} paths at once, at most {} are allowed; change fewer", key,
-                                        map.entries.size(), most_paths)));
+    add_fault(faults, map.place, "{}: {} paths at once, at most {} are allowed; change fewer", key,
+              map.entries.size(), most_paths);
     return none;
   }
   for (const YamlEntry& entry : map.entries) {
     check_path(entry, key, faults);
     if (entry.key.size() <= longest_path) continue;
-    faults.push_back(fault_at(entry.place, fmt::format("{}: a path of {} letters is none; write it as a.b.c",
-                                                       key, entry.key.size())));
+    add_fault(faults, entry.place, "{}: a path of {} letters is none; write it as a.b.c", key,
+              entry.key.size());
   }
   const bool are_short = std::all_of(map.entries.begin(), map.entries.end(),
                                      [](const YamlEntry& e) { return e.key.size() <= longest_path; });

@@ -27,12 +27,10 @@ static_assert(case_role_names.size() == static_cast<std::size_t>(CaseRole::judge
 std::optional<std::uint64_t> end_of_range(const YamlNode& range, const std::string& text, const char* what,
                                           std::vector<Fault>& faults) {
   std::uint64_t seed = 0;
-  YamlNode node = make_node(NodeKind::scalar, range.place);
-  node.text = text;
+  const YamlNode node = make_scalar(range.place, text);
   const Refusal refusal = text.empty() ? Refusal("one end is missing") : take_value(node, {.doc = ""}, seed);
   if (!refusal) return seed;
-  faults.push_back(fault_at(
-      range.place, fmt::format("{}: '{}' is no range such as 1..30: {}", what, range.text, *refusal)));
+  add_fault(faults, range.place, "{}: '{}' is no range such as 1..30: {}", what, range.text, *refusal);
   return std::nullopt;
 }
 
@@ -45,7 +43,7 @@ std::optional<std::pair<std::uint64_t, std::uint64_t>> range_of(const YamlNode& 
     std::uint64_t seed = 0;
     const Refusal refusal = take_value(item, {.doc = ""}, seed);
     if (!refusal) return std::pair(seed, seed);
-    faults.push_back(fault_at(item.place, what + (": " + *refusal) + "; a range is written as 1..30"));
+    add_fault(faults, item.place, "{}: {}; a range is written as 1..30", what, *refusal);
     return std::nullopt;
   }
   const auto first = end_of_range(item, item.text.substr(0, dots), what, faults);
@@ -53,8 +51,7 @@ std::optional<std::pair<std::uint64_t, std::uint64_t>> range_of(const YamlNode& 
   const auto last = end_of_range(item, item.text.substr(dots + 2), what, faults);
   if (!last) return std::nullopt;
   if (*first <= *last) return std::pair(*first, *last);
-  faults.push_back(
-      fault_at(item.place, fmt::format("{2}: {0}..{1} runs backwards; write {1}..{0}", *first, *last, what)));
+  add_fault(faults, item.place, "{2}: {0}..{1} runs backwards; write {1}..{0}", *first, *last, what);
   return std::nullopt;
 }
 
@@ -62,7 +59,7 @@ void check_seed_changes(const std::vector<VariantChanges>& variants, std::vector
   for (const VariantChanges& variant : variants) {
     for (const Change& change : variant.changes) {
       if (change.path != "seed") continue;
-      faults.push_back(fault_at(change.place, "seed: is changed here, and `seeds` is given; leave one out"));
+      add_fault(faults, change.place, "seed: is changed here, and `seeds` is given; leave one out");
       return;
     }
   }
@@ -82,16 +79,14 @@ std::vector<std::uint64_t> numbers_of(const SeedList& list, const char* what, st
     if (!range) continue;
     const auto [first, last] = *range;
     if (last - first >= most_variants - seeds.size()) {
-      faults.push_back(
-          fault_at(item.place, fmt::format("{0}: more than {1} {0}; leave some out", what, most_variants)));
+      add_fault(faults, item.place, "{0}: more than {1} {0}; leave some out", what, most_variants);
       return {};
     }
     for (std::uint64_t k = 0; k <= last - first; ++k) {
       if (seen.insert(first + k).second) {
         seeds.push_back(first + k);
       } else {
-        faults.push_back(
-            fault_at(item.place, fmt::format("{}: {} is there twice; give each once", what, first + k)));
+        add_fault(faults, item.place, "{}: {} is there twice; give each once", what, first + k);
         break;
       }
     }
@@ -150,11 +145,9 @@ Expansion expand(const Variations& variations, AnyParams& experiment, std::vecto
     all.variants.push_back({"", variations.seeds.written->place, {}});
   const std::size_t n = all.variants.size() * std::max<std::size_t>(all.seeds.size(), 1);
   if (n > most_variants && !all.seeds.empty()) {
-    faults.push_back(
-        fault_at(all.variants.front().place,
-                 fmt::format("variants: {} settings and {} seeds make {} variants, at most {} are allowed; "
-                             "leave some out",
-                             all.variants.size(), all.seeds.size(), n, most_variants)));
+    add_fault(faults, all.variants.front().place,
+              "variants: {} settings and {} seeds make {} variants, at most {} are allowed; leave some out",
+              all.variants.size(), all.seeds.size(), n, most_variants);
     return {};
   }
   return all;
@@ -167,11 +160,10 @@ void check_full_names(const Expansion& all, std::vector<Fault>& faults) {
             ? variant.name
             : name_with_seed(variant.name, *std::max_element(all.seeds.begin(), all.seeds.end()));
     if (name.empty() || is_folder_name(name)) continue;
-    faults.push_back(
-        fault_at(variant.place, fmt::format("variants: '{}' is too long for a folder's name, which "
-                                            "has at most 100 letters; variants.list, and names for methods "
-                                            "and cases (NAME: file), let you choose shorter ones",
-                                            name)));
+    add_fault(faults, variant.place,
+              "variants: '{}' is too long for a folder's name, which has at most 100 letters; variants.list, "
+              "and names for methods and cases (NAME: file), let you choose shorter ones",
+              name);
   }
 }
 

@@ -73,8 +73,7 @@ class TreeBuilder final : public YAML::EventHandler {
     refuse_anchor(mark, anchor);
     refuse_tag(mark, tag);
     if (tag == "!") check_quotes(mark);
-    YamlNode node = make_node(NodeKind::scalar, place(mark));
-    node.text = value;
+    YamlNode node = make_scalar(place(mark), value);
     node.quoted = tag == "!";
     add(std::move(node));
   }
