@@ -10,9 +10,9 @@
 
 #include "app/commands.hpp"
 #include "app/experiment_options.hpp"
-#include "app/filled_params.hpp"
 #include "app/standard_streams.hpp"
 #include "config/nearest.hpp"
+#include "config/overrides.hpp"
 #include "config/reader.hpp"
 #include "glocal/error.hpp"
 

@@ -10,8 +10,8 @@
 
 #include "app/commands.hpp"
 #include "app/experiment_options.hpp"
-#include "app/filled_params.hpp"
 #include "app/standard_streams.hpp"
+#include "config/overrides.hpp"
 #include "config/reader.hpp"
 #include "config/text_file.hpp"
 #include "config/yaml_parser.hpp"

@@ -38,11 +38,7 @@ extern "C" int fuzz_overrides(const std::uint8_t* data, std::size_t size) {
   using namespace glocal;
   static const YamlNode base = fuzz::base();
   return fuzz::answer([&] {
-    YamlNode tree = base;
-    std::vector<Fault> faults;
     ExperimentFileParams params(fuzz::catalog());
-    apply_overrides(tree, fuzz::overrides_of(fuzz::text_of(data, size)), params, faults);
-    read_params(tree, params, faults);
-    if (!faults.empty()) throw ConfigError(std::move(faults));
+    fill(params, base, fuzz::overrides_of(fuzz::text_of(data, size)));
   });
 }

@@ -501,11 +501,8 @@ LocalizerConfig read_localizer(const std::vector<Override>& overrides, const Cat
   LocalizerConfig config = default_experiment().localizer;
   LocalizerSection section{&config, &catalog};
   DescribedBy params([&section](ParamVisitor& v) { describe(v, section); });
-  YamlNode tree = make_node(NodeKind::map, {std::make_shared<const Origin>(Origin{"localizer", "."}), 0, 0});
-  std::vector<Fault> faults;
-  apply_overrides(tree, overrides, params, faults);
-  read_params(tree, params, faults);
-  if (!faults.empty()) throw ConfigError(std::move(faults));
+  const auto origin = std::make_shared<const Origin>(Origin{"localizer", "."});
+  fill(params, make_node(NodeKind::map, {origin}), overrides);
   return config;
 }
 

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "config/reader.hpp"
 #include "config/yaml_parser.hpp"
 
 namespace glocal {
@@ -137,6 +138,13 @@ void apply_overrides(YamlNode& tree, const std::vector<Override>& overrides, Any
     auto node = parse_yaml_value(value, origin, faults);
     if (node) apply_change(tree, text, *std::move(node), {origin, 0, 0}, params, faults);
   }
+}
+
+void fill(AnyParams& params, YamlNode tree, const std::vector<Override>& overrides) {
+  std::vector<Fault> faults;
+  apply_overrides(tree, overrides, params, faults);
+  read_params(tree, params, faults);
+  if (!faults.empty()) throw ConfigError(std::move(faults));
 }
 
 }  // namespace glocal

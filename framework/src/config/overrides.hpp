@@ -20,4 +20,7 @@ void apply_change(YamlNode& tree, const std::string& path, YamlNode value, const
 void apply_overrides(YamlNode& tree, const std::vector<Override>& overrides, AnyParams& params,
                      std::vector<Fault>& faults);
 
+/// Fills the struct from a tree into which the overrides are put. Throws ConfigError with all faults.
+void fill(AnyParams& params, YamlNode tree, const std::vector<Override>& overrides);
+
 }  // namespace glocal
