@@ -33,33 +33,19 @@ Signed split_sign(std::string_view text) {
   return {text.starts_with('-'), text.substr(has_sign ? 1 : 0)};
 }
 
-std::size_t skip_digits(std::string_view text, std::size_t i) {
-  while (i < text.size() && is_digit(text[i])) ++i;
-  return i;
-}
-
 bool is_whole(std::string_view digits) {
-  return !digits.empty() && skip_digits(digits, 0) == digits.size();
+  return !digits.empty() && std::all_of(digits.begin(), digits.end(), is_digit);
 }
 
 /// Digits with perhaps a fraction and an exponent, as in YAML's core schema: `12`, `1.5`, `.5`, `1.`, `1e-3`.
 bool is_decimal(std::string_view digits) {
-  std::size_t i = skip_digits(digits, 0);
-  std::size_t mantissa = i;
-  if (i < digits.size() && digits[i] == '.') {
-    const std::size_t end = skip_digits(digits, i + 1);
-    mantissa += end - (i + 1);
-    i = end;
-  }
-  if (mantissa == 0) return false;
-  if (i < digits.size() && (digits[i] == 'e' || digits[i] == 'E')) {
-    ++i;
-    if (i < digits.size() && (digits[i] == '-' || digits[i] == '+')) ++i;
-    const std::size_t end = skip_digits(digits, i);
-    if (end == i) return false;
-    i = end;
-  }
-  return i == digits.size();
+  // std::from_chars takes a sign and words such as `inf`, too.
+  if (digits.empty() || !(is_digit(digits.front()) || digits.front() == '.')) return false;
+  const char* end = digits.data() + digits.size();
+  double value = 0.0;
+  const auto read = std::from_chars(digits.data(), end, value);
+  // A number that is out of range is one, too.
+  return read.ec != std::errc::invalid_argument && read.ptr == end;
 }
 
 bool has_leading_zero(std::string_view digits) {
