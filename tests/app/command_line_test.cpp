@@ -18,15 +18,13 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 TEST_F(CommandLine, WithoutArgumentsShowsHelp) {
-  const Answer answer = run("");
-  EXPECT_EQ(answer.exit_code, 0);
+  const Answer answer = good(run(""));
   EXPECT_THAT(answer.out, HasSubstr("Subcommands:"));
   EXPECT_EQ(answer.err, "");
 }
 
 TEST_F(CommandLine, VersionNamesTheRevision) {
-  const Answer answer = run("--version");
-  EXPECT_EQ(answer.exit_code, 0);
+  const Answer answer = good(run("--version"));
   EXPECT_THAT(answer.out, testing::MatchesRegex("glocal [0-9]+\\.[0-9]+\\.[0-9]+ \\(.+\\)\n"));
 }
 

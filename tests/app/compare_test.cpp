@@ -36,8 +36,7 @@ class CompareCommand : public CommandLine {
   }
 
   void run_room(const std::string& out, const std::string& options = "") const {
-    const Answer answer = run("run " + file("room.yaml") + " --quiet --out " + file(out) + " " + options);
-    ASSERT_EQ(answer.exit_code, 0) << answer.err;
+    good(run("run " + file("room.yaml") + " --quiet --out " + file(out) + " " + options));
   }
 
   /// One with a threshold that nothing reaches.
@@ -59,8 +58,7 @@ TEST_F(CompareCommand, ComparesWhatRunHasLeft) {
   run_both();
   const std::string command = "compare " + file("all/some") + " " + file("all/none") + " --force -o " +
                               file("c.json") + " -o " + file("c.csv") + " -o " + file("c.md");
-  const Answer answer = run(command);
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Answer answer = good(run(command));
   EXPECT_EQ(answer.err, "");
   const json comparison = json::parse(content(file("c.json")));
   const json some = json::parse(content(file("all/some/summary.json")));
@@ -100,27 +98,23 @@ TEST_F(CompareCommand, ComparesWhatRunHasLeft) {
 
 TEST_F(CompareCommand, TakesAFolderOfVariantsAndAnyBaseline) {
   run_both();
-  Answer answer = run("compare " + file("all"));
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  Answer answer = good(run("compare " + file("all")));
   EXPECT_THAT(answer.out, HasSubstr("1 method compared with none, "));
-  answer = run("compare " + file("all") + "/ --baseline some");
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  answer = good(run("compare " + file("all") + "/ --baseline some"));
   EXPECT_THAT(answer.out, HasSubstr("1 method compared with some, "));
 }
 
 TEST_F(CompareCommand, TellsFoldersOfOneNameApart) {
   run_room("a/1");
   run_room("b/1", "--set name=other");
-  const Answer answer = run("compare " + file("a/1") + " " + file("b/1") + " --baseline other");
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Answer answer = good(run("compare " + file("a/1") + " " + file("b/1") + " --baseline other"));
   EXPECT_THAT(answer.out, HasSubstr("1 method compared with " + file("b/1") + ", "));
 }
 
 TEST_F(CompareCommand, FindsNothingBetweenARunAndItself) {
   run_room("a");
   run_room("b");
-  const Answer answer = run("compare " + file("a") + " " + file("b") + " -o " + file("c.json"));
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Answer answer = good(run("compare " + file("a") + " " + file("b") + " -o " + file("c.json")));
   EXPECT_THAT(answer.out, Not(HasSubstr("better than a")));
   const json comparison = json::parse(content(file("c.json")));
   for (const json& outcome : comparison["pairs"][0]["outcomes"]) EXPECT_EQ(outcome["p"], 1.0);
@@ -129,11 +123,10 @@ TEST_F(CompareCommand, FindsNothingBetweenARunAndItself) {
 
 TEST_F(CompareCommand, SaysTheSameOfRunsWithTheSameSeedIfTimesAreLeftOut) {
   run_both();
-  const Answer first = run("compare --no-times " + file("all"));
+  const Answer first = good(run("compare --no-times " + file("all")));
   fs::rename(file("all"), file("before"));
   run_both();
   const Answer second = run("compare --no-times " + file("all"));
-  EXPECT_EQ(first.exit_code, 0) << first.err;
   EXPECT_EQ(first.out, second.out);
   EXPECT_THAT(run("compare " + file("all")).out, HasSubstr("CPU, ms"));
   EXPECT_THAT(first.out, AllOf(HasSubstr("steps"), Not(HasSubstr("CPU, ms"))));
@@ -145,8 +138,7 @@ TEST_F(CompareCommand, TakesTimesAnewAndInTurn) {
   const std::string both = file("a") + " " + file("b") + " -o " + file("c.json");
   EXPECT_THAT(run("compare " + both).out,
               HasSubstr("Times of b and a are not compared: --jobs 1, and --jobs 2."));
-  const Answer answer = run("compare --time --force " + both);
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Answer answer = good(run("compare --time --force " + both));
   EXPECT_THAT(answer.out, Not(HasSubstr("are not compared")));
   const json measures = json::parse(content(file("c.json")))["pairs"][0]["measures"];
   const json& time = measures.back();
@@ -170,8 +162,7 @@ TEST_F(CompareCommand, RefusesTimesOfWhatAnswersOtherwiseNow) {
 TEST_F(CompareCommand, WarnsOfRunsThatDiffer) {
   run_room("a");
   run_room("b", "--seed 2 --set evaluation.max_translation_error=0.2 --set map.simulation.resolution=0.1");
-  const Answer answer = run("compare " + file("a") + " " + file("b") + " -o " + file("c.json"));
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  good(run("compare " + file("a") + " " + file("b") + " -o " + file("c.json")));
   const std::string warnings = json::parse(content(file("c.json")))["warnings"].dump();
   EXPECT_THAT(warnings, HasSubstr("evaluation.max_translation_error: 0.2 instead of 0.5"));
   EXPECT_THAT(warnings, HasSubstr("map.simulation.resolution: 0.1 instead of"));
@@ -184,8 +175,7 @@ TEST_F(CompareCommand, WarnsOfAWorldThatHasChanged) {
   run_room("a");
   std::ofstream(file("world.yaml"), std::ios::app) << "circles: [{centre: [2, 1], radius: 0.2}]\n";
   run_room("b");
-  const Answer answer = run("compare " + file("a") + " " + file("b") + " -o " + file("c.json"));
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  good(run("compare " + file("a") + " " + file("b") + " -o " + file("c.json")));
   EXPECT_THAT(json::parse(content(file("c.json")))["warnings"].dump(),
               AllOf(HasSubstr("map.simulation.world: " + file("world.yaml") + " has changed"),
                     HasSubstr("observations.simulation.world: ")));
@@ -219,9 +209,8 @@ TEST_F(CompareCommand, ReportsTheFaultsOfAllFolders) {
 TEST_F(CompareCommand, PrintsAsJsonWhatItWrites) {
   run_both();
   const std::string command = "compare " + file("all") + " --no-times ";
-  const Answer printed = run(command + "--json");
-  ASSERT_EQ(printed.exit_code, 0) << printed.err;
-  ASSERT_EQ(run(command + "-o " + file("c.json")).exit_code, 0);
+  const Answer printed = good(run(command + "--json"));
+  good(run(command + "-o " + file("c.json")));
   EXPECT_EQ(printed.out, content(file("c.json")));
   const Answer refused = run(command + "-o " + file("c.txt"));
   EXPECT_EQ(refused.exit_code, 2);
@@ -238,7 +227,7 @@ TEST_F(CompareCommand, ReplacesNoFileUnlessForced) {
   EXPECT_THAT(refused.err, HasSubstr("the file exists"));
   EXPECT_EQ(content(file("old.json")), "kept");
   EXPECT_FALSE(fs::exists(file("new.csv")));
-  EXPECT_EQ(run(command + file("old.json") + " --force").exit_code, 0);
+  good(run(command + file("old.json") + " --force"));
   EXPECT_TRUE(json::accept(content(file("old.json"))));
 }
 
@@ -251,7 +240,7 @@ TEST_F(CompareVariants, TellsWhatOneOrTwoParametersDo) {
                    "    localizer.matcher.ransam.iterations: [200, 100]\n"
                    "    localizer.matcher.ransam.min_side: [0.5, 1]\n"
                    "output: {steps: false, maps: none}\n");
-  ASSERT_EQ(run_room("all").exit_code, 0);
+  good(run_room("all"));
   const auto set_outcomes = [&](const std::string& setting, const std::string& outcome, int steps) {
     replace_lines(file("all/" + setting), {{{"outcome", outcome}, {"steps", steps}}}, {});
   };
@@ -260,8 +249,7 @@ TEST_F(CompareVariants, TellsWhatOneOrTwoParametersDo) {
   set_outcomes("iterations-100_min_side-0.5", "right", 9);
   set_outcomes("iterations-100_min_side-1", "wrong", 7);
   const Answer answer =
-      run("compare --full " + file("all") + " -o " + file("all.json") + " -o " + file("all.md"));
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+      good(run("compare --full " + file("all") + " -o " + file("all.json") + " -o " + file("all.md")));
   EXPECT_THAT(answer.out, HasSubstr("3 methods compared with iterations-200_min_side-0.5, "));
   EXPECT_THAT(answer.out,
               HasSubstr("localizer.matcher.ransam.iterations: 50.0 points from the worst to the best"));
@@ -289,7 +277,7 @@ TEST_F(CompareVariants, PairsMethodsWithinCaseAndSeed) {
                               " --case " + file("near.yaml") + " --case " + file("far.yaml") +
                               " --set output.maps=none --set output.steps=false --seeds 1..2 --out " +
                               file("r");
-  ASSERT_EQ(run(options).exit_code, 0);
+  good(run(options));
   for (const char* one_case : {"near", "far"}) {
     for (const char* seed : {"1", "2"}) {
       const auto results = [&](const std::string& method) {
@@ -301,8 +289,7 @@ TEST_F(CompareVariants, PairsMethodsWithinCaseAndSeed) {
       replace_lines(results("many"), std::vector<nlohmann::json>(4, right), {});
     }
   }
-  const Answer answer = run("compare --no-times " + file("r"));
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Answer answer = good(run("compare --no-times " + file("r")));
   EXPECT_THAT(answer.out,
               HasSubstr("1 method compared with few, by 16 starts: 8 places of 2 cases, 2 seeds\n"));
   // 2 / 2^8: seeds are no places.

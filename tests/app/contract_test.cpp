@@ -11,13 +11,12 @@ using testing::HasSubstr;
 class ContractCommand : public CommandLine {};
 
 TEST_F(ContractCommand, SaysThatAStrategyKeepsItsContract) {
-  const Answer answer = run("contract clusterer dbscan");
-  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  const Answer answer = good(run("contract clusterer dbscan"));
   EXPECT_EQ(answer.out, "clusterer dbscan: keeps its contract\n");
 }
 
 TEST_F(ContractCommand, TakesParameters) {
-  EXPECT_EQ(run("contract threshold_policy fixed --set omega_max=0.3").exit_code, 0);
+  good(run("contract threshold_policy fixed --set omega_max=0.3"));
   const Answer refused = run("contract threshold_policy fixed --set omega_max=3");
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err, HasSubstr("out of range"));

@@ -32,25 +32,22 @@ class ConvertCommand : public CommandLine {
 };
 
 TEST_F(ConvertCommand, ALogBecomesMcapAndALogAgain) {
-  const Answer there = convert("drive.log", "drive.mcap");
-  ASSERT_EQ(there.exit_code, 0) << there.err;
+  const Answer there = good(convert("drive.log", "drive.mcap"));
   EXPECT_EQ(there.out, "2 scans, 1 of them with reference pose, in " + file("drive.mcap") + "\n");
   const Answer info = run("bag info --json " + file("drive.mcap"));
   const auto json = nlohmann::json::parse(info.out);
   EXPECT_EQ(json["path_m"], 1.0);
   EXPECT_EQ(json["topics"][0]["topic"], "/reference");
   EXPECT_EQ(json["topics"][1]["scan"]["beams"], 3);
-  const Answer back = convert("drive.mcap", "back.log", "--reference /reference");
-  ASSERT_EQ(back.exit_code, 0) << back.err;
+  good(convert("drive.mcap", "back.log", "--reference /reference"));
   EXPECT_THAT(content(file("back.log")), HasSubstr("TRUEPOS 5 6 0 "));
   EXPECT_THAT(content(file("back.log")),
               HasSubstr(" 80 0 0 3 1 2 3 0 0.1 0 0 0 0 0 0 0 0 0 0 1.500000 glocal"));
 }
 
 TEST_F(ConvertCommand, McapCanBeCopied) {
-  ASSERT_EQ(convert("drive.log", "drive.mcap").exit_code, 0);
-  const Answer answer = convert("drive.mcap", "copy.mcap");
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  good(convert("drive.log", "drive.mcap"));
+  const Answer answer = good(convert("drive.mcap", "copy.mcap"));
   EXPECT_EQ(answer.out, "6 messages in " + file("copy.mcap") + "\n");
   EXPECT_EQ(content(file("copy.mcap")).size(), content(file("drive.mcap")).size());
 }
@@ -64,8 +61,7 @@ TEST_F(ConvertCommand, MessagesOfRos1ThatAreNotKnownAreLeftOut) {
                                         ros1_connection(1, "/imu", "sensor_msgs/Imu") +
                                         ros1_message(0, 5, header + pose) + ros1_message(1, 6, "imu") +
                                         ros1_message(1, 7, "imu")));
-  const Answer answer = convert("a.bag", "a.mcap");
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Answer answer = good(convert("a.bag", "a.mcap"));
   EXPECT_EQ(answer.out, "1 messages in " + file("a.mcap") + "\n");
   EXPECT_THAT(answer.err,
               HasSubstr("a.bag: 2 messages of /imu are left out: the definition of sensor_msgs/Imu "
@@ -85,16 +81,15 @@ TEST_F(ConvertCommand, AFolderOfCloudsBecomesMcapAndAFolderAgain) {
       "10.250000 0.000000 0.000000 0.500000 0.000000000 0.000000000 0.000000000 1.000000000\n"
       "10.750000 1.000000 0.000000 0.500000 0.600000000 0.000000000 0.000000000 0.800000000\n";
   std::ofstream(file("clouds/odometry.tum")) << odometry;
-  ASSERT_EQ(convert("clouds", "drive.mcap").exit_code, 0);
-  const Answer back = convert("drive.mcap", "back/");
-  ASSERT_EQ(back.exit_code, 0) << back.err;
+  good(convert("clouds", "drive.mcap"));
+  good(convert("drive.mcap", "back/"));
   EXPECT_EQ(content(file("back/odometry.tum")), odometry);
   EXPECT_TRUE(std::filesystem::exists(file("back/10.250000.pcd")));
   EXPECT_TRUE(std::filesystem::exists(file("back/10.750000.pcd")));
   EXPECT_FALSE(std::filesystem::exists(file("back/reference.tum")));
-  EXPECT_EQ(convert("back", "again.mcap").exit_code, 0);
+  good(convert("back", "again.mcap"));
   EXPECT_EQ(content(file("again.mcap")), content(file("drive.mcap")));
-  EXPECT_EQ(convert("drive.mcap", "back/", "--force").exit_code, 0);
+  good(convert("drive.mcap", "back/", "--force"));
 
   expect_fault(convert("drive.mcap", "a.log"), "has clouds, which cannot be written as a CARMEN log");
   expect_fault(convert("clouds", "a.log"), "has clouds, which cannot be written as a CARMEN log");
@@ -104,7 +99,7 @@ TEST_F(ConvertCommand, AFolderOfCloudsBecomesMcapAndAFolderAgain) {
 }
 
 TEST_F(ConvertCommand, WhatCannotBeIsSaidAndLeavesNothing) {
-  ASSERT_EQ(convert("drive.log", "drive.mcap").exit_code, 0);
+  good(convert("drive.log", "drive.mcap"));
   expect_fault(convert("drive.log", "other.log"), "is a CARMEN log already; name --out *.mcap");
   expect_fault(convert("drive.log", "a.bag"), "a.bag: error: the name says no format");
   expect_fault(convert("none.log", "a.mcap"), "none.log: error: there is no such file or folder");
@@ -124,7 +119,7 @@ TEST_F(ConvertCommand, WhatCannotBeIsSaidAndLeavesNothing) {
   std::ofstream(file("bad.log")) << "FLASER 3 1 2 3 0.1 0 0 0 0 0 1.5 host 1.5\nFLASER 3 1\n";
   expect_fault(convert("bad.log", "drive.mcap", "--force"), "bad.log:2: error: FLASER says 3 readings");
   EXPECT_EQ(entries(), 5) << "two logs, a recording, and what the commands said";
-  EXPECT_EQ(convert("drive.log", "drive.mcap", "--force").exit_code, 0);
+  good(convert("drive.log", "drive.mcap", "--force"));
 }
 
 }  // namespace

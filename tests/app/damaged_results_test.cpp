@@ -122,7 +122,7 @@ class DamagedResults : public Room {
 };
 
 TEST_F(DamagedResults, AreRefusedByEveryCommandWithFileAndLine) {
-  ASSERT_EQ(run_room("whole").exit_code, 0);
+  good(run_room("whole"));
   fs::copy(file("whole"), file("b"), fs::copy_options::recursive);
   fs::copy(file("whole"), file("a"), fs::copy_options::recursive);
   expect_all(0, "whole");
@@ -162,7 +162,7 @@ TEST_F(DamagedResults, OfAnInterruptedRunAreResults) {
 TEST_F(DamagedResults, AreNotKeptByALaterRun) {
   write_experiment("trials: {every_scan: 9, max_steps: 3}\n",
                    "variants: {list: {one: {}, two: {seed: 2}}}\n");
-  ASSERT_EQ(run_room("all").exit_code, 0);
+  good(run_room("all"));
   cut("summary.json", 0.5)(file("all/one"));
   without_last_line("steps.jsonl")(file("all/two"));
   const Answer refused = run_room("all");
@@ -171,8 +171,8 @@ TEST_F(DamagedResults, AreNotKeptByALaterRun) {
               ContainsRegex("all/one/summary.json:[0-9]+: error: is not as glocal run leaves it"));
   EXPECT_THAT(refused.err, ContainsRegex("all/two/steps.jsonl:[0-9]+: error: ends here with"));
   EXPECT_THAT(refused.err, HasSubstr("2 errors"));
-  ASSERT_EQ(run_room("all", "--quiet --force").exit_code, 0);
-  EXPECT_EQ(run("summarize " + file("all")).exit_code, 0);
+  good(run_room("all", "--quiet --force"));
+  good(run("summarize " + file("all")));
   cut("provenance.json", 0.5)(file("all/one"));
   const Answer other = run_room("all");
   EXPECT_EQ(other.exit_code, 2);

@@ -38,10 +38,8 @@ class ExplainCommand : public CommandLine {
 
   /// One trial of six steps in the simulated lab.
   void run_lab(const std::string& options = "") const {
-    const Answer answer =
-        run("run " + std::string(GLOCAL_SOURCE_DIR) + "/configs/experiments/paper_lab.yaml --quiet --out " +
-            folder() + " --set 'trials={starts_m: [0], max_steps: 6}' " + options);
-    ASSERT_EQ(answer.exit_code, 0) << answer.err;
+    good(run("run " + std::string(GLOCAL_SOURCE_DIR) + "/configs/experiments/paper_lab.yaml --quiet --out " +
+             folder() + " --set 'trials={starts_m: [0], max_steps: 6}' " + options));
   }
 
   void run_lab_again(const std::string& options) const {
@@ -58,9 +56,7 @@ class ExplainCommand : public CommandLine {
   }
 
   [[nodiscard]] std::string explained(int step) const {
-    const Answer answer = run("explain " + folder() + " --trial 0 --step " + std::to_string(step));
-    EXPECT_EQ(answer.exit_code, 0) << answer.err;
-    return answer.out;
+    return good(run("explain " + folder() + " --trial 0 --step " + std::to_string(step))).out;
   }
 
   [[nodiscard]] std::string lost(int step) const {
@@ -123,10 +119,8 @@ TEST_F(ExplainCommand, NotOnTheMap) {
 
 // The simulated lab's map with its corner at the origin, and far away.
 TEST_F(ExplainCommand, SaysTheSameOnAMapFarAway) {
-  ASSERT_EQ(run("map convert " + std::string(GLOCAL_SOURCE_DIR) + "/configs/experiments/paper_lab.yaml -o " +
-                file("map.yaml"))
-                .exit_code,
-            0);
+  good(run("map convert " + std::string(GLOCAL_SOURCE_DIR) + "/configs/experiments/paper_lab.yaml -o " +
+           file("map.yaml")));
   const auto explained_with = [&](const std::string& corner, const std::string& region) {
     std::string map = content(file("map.yaml"));
     const std::size_t origin = map.find("origin: [");
@@ -139,8 +133,7 @@ TEST_F(ExplainCommand, SaysTheSameOnAMapFarAway) {
                                        "  matcher: {ransam: {iterations: 20000}}\n"
                                        "  verifier: whole_map\n"
                                     << region;
-    const Answer answer = run("run " + file("lab.yaml") + " --quiet --force --out " + folder());
-    EXPECT_EQ(answer.exit_code, 0) << answer.err;
+    good(run("run " + file("lab.yaml") + " --quiet --force --out " + folder()));
     std::string text = explained(3);
     const std::size_t reference = text.find("  reference");
     return text.erase(reference, text.find('\n', reference) - reference);
@@ -158,8 +151,7 @@ TEST_F(ExplainCommand, SaysTheSameOnAMapFarAway) {
 TEST_F(ExplainCommand, TakesTheLastStepUnlessOneIsNamed) {
   run_lab();
   const auto steps = json::parse(content(folder() + "/trials.jsonl"))["steps"].get<int>();
-  const Answer last = run("explain " + folder() + " --trial 0");
-  ASSERT_EQ(last.exit_code, 0) << last.err;
+  const Answer last = good(run("explain " + folder() + " --trial 0"));
   EXPECT_EQ(last.out, explained(steps - 1));
   EXPECT_THAT(last.out, testing::StartsWith(fmt::format("paper_lab, trial 0, step {}, ", steps - 1)));
   EXPECT_THAT(run("explain " + folder() + " --trial 3").err,
@@ -172,9 +164,9 @@ TEST_F(ExplainCommand, NamesARivalThatTheMatcherDoesNotHave) {
                                " --set 'trials={starts_m: [0], max_steps: 3}' --set output.maps=none --set "
                                "localizer.threshold_policy.fixed.omega_max=0.5 --set "
                                "localizer.matcher.branch_and_bound.max_poses=";
-  ASSERT_EQ(run(symmetry + "1").exit_code, 0);
+  good(run(symmetry + "1"));
   EXPECT_THAT(explained(2), HasSubstr("rivals      missing: "));
-  ASSERT_EQ(run(symmetry + "20").exit_code, 0);
+  good(run(symmetry + "20"));
   EXPECT_THAT(explained(2), HasSubstr("rivals      none is missing: the best pose has "));
 }
 

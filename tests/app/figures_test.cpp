@@ -43,8 +43,7 @@ class Figures : public Room {
   Figures() { write_experiment("trials: {whole: true}\n"); }
 
   void run_whole(const std::string& out, const std::string& options = "") const {
-    const Answer answer = run_room(out, "--quiet " + options);
-    ASSERT_EQ(answer.exit_code, 0) << answer.err;
+    good(run_room(out, "--quiet " + options));
   }
 
   [[nodiscard]] Answer figures(const std::string& folder, const std::string& out,
@@ -76,8 +75,7 @@ class Figures : public Room {
 TEST_F(Figures, HandsTheFoldersToAScript) {
   run_whole("a");
   fs::rename(file("a"), file(odd_name));
-  const Answer answer = figures(odd_name, "b 'c", pretended_python());
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  good(figures(odd_name, "b 'c", pretended_python()));
   EXPECT_THAT(content(file("b 'c/figures.py")), StartsWith("#!/usr/bin/env python3\n"));
   EXPECT_EQ(content(file("called")), file("b 'c/figures.py") + "\n--out\n" + file("b 'c") +
                                          "\n--trial\n0\n--\n" + file(odd_name) + "\n");
@@ -85,15 +83,14 @@ TEST_F(Figures, HandsTheFoldersToAScript) {
 
 TEST_F(Figures, KeepsAScriptThatWasChanged) {
   run_whole("a");
-  ASSERT_EQ(figures("a", "b", pretended_python()).exit_code, 0);
+  good(figures("a", "b", pretended_python()));
   const std::string script = content(file("b/figures.py"));
   EXPECT_EQ(figures("a", "b", pretended_python()).err, "");
   std::ofstream(file("b/figures.py")) << "changed\n";
-  const Answer kept = figures("a", "b", pretended_python());
-  EXPECT_EQ(kept.exit_code, 0);
+  const Answer kept = good(figures("a", "b", pretended_python()));
   EXPECT_THAT(kept.err, HasSubstr("drawn with this as it has been changed; --force writes it anew"));
   EXPECT_EQ(content(file("b/figures.py")), "changed\n");
-  EXPECT_EQ(figures("a", "b", "--force" + pretended_python()).exit_code, 0);
+  good(figures("a", "b", "--force" + pretended_python()));
   EXPECT_EQ(content(file("b/figures.py")), script);
 }
 
@@ -105,7 +102,7 @@ TEST_F(Figures, WritesIntoNoForeignFolderUnlessForced) {
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err, HasSubstr("thesis: error: holds other files, and no figures.py"));
   EXPECT_FALSE(fs::exists(file("thesis/figures.py")));
-  EXPECT_EQ(figures("a", "thesis", "--force" + pretended_python()).exit_code, 0);
+  good(figures("a", "thesis", "--force" + pretended_python()));
   EXPECT_TRUE(fs::exists(file("thesis/figures.py")));
   EXPECT_THAT(figures("a", "room.yaml", pretended_python()).err, HasSubstr("room.yaml: error: is no folder"));
 }
@@ -222,14 +219,13 @@ class SweepFigures : public Figures {
                      "    localizer.matcher.ransam.iterations: [100, 200, 300]\n"
                      "    localizer.matcher.ransam.min_side: [1, 2]\n"
                      "output: {steps: false, maps: none}\n");
-    EXPECT_EQ(run_room("all").exit_code, 0);
+    good(run_room("all"));
     write_sweep(file("all"));
   }
 };
 
 TEST_F(SweepFigures, HandWhatSweepTellsToTheScript) {
-  const Answer answer = figures("all", "b", "--sweep" + pretended_python());
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  good(figures("all", "b", "--sweep" + pretended_python()));
   EXPECT_EQ(content(file("b/sweep.json")), run("sweep --json " + file("all")).out);
   EXPECT_EQ(content(file("called")),
             file("b/figures.py") + "\n--out\n" + file("b") + "\n--sweep\n" + file("b/sweep.json") + "\n");
@@ -237,7 +233,7 @@ TEST_F(SweepFigures, HandWhatSweepTellsToTheScript) {
 
 TEST_F(SweepFigures, RefuseWhatIsNoSweep) {
   write_experiment("trials: {every_scan: 9, max_steps: 1}\n", "seeds: 1..2\n");
-  ASSERT_EQ(run_room("seeds").exit_code, 0);
+  good(run_room("seeds"));
   const Answer answer = figures("seeds", "c", "--sweep" + pretended_python());
   EXPECT_EQ(answer.exit_code, 2);
   EXPECT_THAT(answer.err, HasSubstr("/seeds: error: no parameter varies, so that there is nothing to draw"));
@@ -249,8 +245,7 @@ TEST_F(SweepFigures, RefuseWhatIsNoSweep) {
 
 TEST_F(SweepFigures, HaveTheSharesOfTheSweep) {
   if (!has_matplotlib()) GTEST_SKIP() << "matplotlib is not installed";
-  const Answer answer = figures("all", "b", "--sweep");
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Answer answer = good(figures("all", "b", "--sweep"));
   EXPECT_EQ(answer.out, "2 figures in " + file("b") + ", each as pdf, svg, png\n");
   const std::string map = content(file("b/sweep_map.svg"));
   // The parameter of the larger effect has the columns behind it: min_side 4 of 12 and 9 of 12, iterations 4,
@@ -280,15 +275,14 @@ class DrawnFigures : public Figures {
   }
 
   /// Draws SVG files only, which is quicker, by a script that was changed.
-  [[nodiscard]] Answer draw_svg(const std::string& folder, const std::string& out) const {
-    EXPECT_EQ(figures(folder, out, pretended_python()).exit_code, 0);
+  Answer draw_svg(const std::string& folder, const std::string& out) const {
+    good(figures(folder, out, pretended_python()));
     std::string script = content(file(out + "/figures.py"));
     const std::string formats = "FORMATS = [\"pdf\", \"svg\", \"png\"]";
     const std::size_t at = script.find(formats);
     EXPECT_NE(at, std::string::npos);
     std::ofstream(file(out + "/figures.py")) << script.replace(at, formats.size(), "FORMATS = [\"svg\"]");
-    Answer answer = figures(folder, out);
-    EXPECT_EQ(answer.exit_code, 0) << answer.err;
+    Answer answer = good(figures(folder, out));
     EXPECT_FALSE(fs::exists(file(out + "/fig3.pdf")));
     return answer;
   }
@@ -309,8 +303,7 @@ TEST_F(DrawnFigures, AreWholeFilesAndTheSameEachTime) {
   run_whole("a");
   fs::rename(file("a"), file(odd_name));
   const auto draw = [&] {
-    const Answer answer = figures(odd_name, "b");
-    EXPECT_EQ(answer.exit_code, 0) << answer.err;
+    const Answer answer = good(figures(odd_name, "b"));
     EXPECT_EQ(answer.err, "");
     EXPECT_EQ(answer.out, "15 figures in " + file("b") + ", each as pdf, svg, png\n");
   };
@@ -444,7 +437,7 @@ std::string moved(std::string pcd, const Pose2& new_from_old) {
 
 TEST_F(DrawnFigures, LayTheLocalMapWhereTheRobotIs) {
   run_whole("a");
-  ASSERT_EQ(draw_svg("a", "b").exit_code, 0);
+  draw_svg("a", "b");
   std::vector<Json> all = steps("a");
   const auto first =
       std::find_if(all.begin(), all.end(), [](const Json& s) { return s["verdict"] == "localized"; });
@@ -473,7 +466,7 @@ TEST_F(DrawnFigures, LayTheLocalMapWhereTheRobotIs) {
   const std::string last = file("a/maps/trial_0000/step_00" + std::to_string(all.size() - 1) + ".pcd");
   const std::string cloud = moved(content(last), new_from_old);
   std::ofstream(last, std::ios::binary) << cloud;
-  ASSERT_EQ(draw_svg("a", "c").exit_code, 0);
+  draw_svg("a", "c");
 
   const std::vector<Place> before = dots(svg("b/fig5b"), "local_map");
   const std::vector<Place> after = dots(svg("c/fig5b"), "local_map");
@@ -492,15 +485,14 @@ TEST_F(DrawnFigures, LayTheLocalMapWhereTheRobotIs) {
 
 TEST_F(DrawnFigures, TellWhatIsLeftOut) {
   run_whole("a");
-  ASSERT_EQ(draw_svg("a", "b").exit_code, 0);
+  draw_svg("a", "b");
   ASSERT_TRUE(fs::exists(file("b/fig5c.svg")));
   std::ofstream(file("b/fig4b.png")) << "of somebody else";
   fs::remove_all(file("a"));
   run_whole(
       "a",
       "--set output.maps=none --set trials.whole=false --set trials.every_scan=1 --set trials.max_steps=2");
-  const Answer answer = figures("a", "b");
-  EXPECT_EQ(answer.exit_code, 0);
+  const Answer answer = good(figures("a", "b"));
   EXPECT_THAT(answer.out, StartsWith("7 figures in "));
   EXPECT_THAT(answer.err,
               AllOf(HasSubstr("fig4a is left out: there is no " + file("a/maps/global.pcd") +
@@ -515,9 +507,8 @@ TEST_F(DrawnFigures, TellWhatIsLeftOut) {
 TEST_F(DrawnFigures, OfSeveralRunsShareTheirCurves) {
   run_whole("a/1");
   run_whole("b/1", "--seed 2");
-  ASSERT_EQ(draw_svg("a", "c").exit_code, 0);
-  const Answer answer = figures("a", "c", file("b"));
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  draw_svg("a", "c");
+  good(figures("a", "c", file("b")));
   EXPECT_EQ(vertices(svg("c/fig3c"), "omega_max_0").size(), steps("a/1").size());
   EXPECT_EQ(vertices(svg("c/fig3c"), "omega_max_1").size(), steps("b/1").size());
   EXPECT_THAT(svg("c/fig3c"), AllOf(HasSubstr("<!-- 1 -->"), HasSubstr("<!-- 1_2 -->")));
@@ -528,7 +519,7 @@ TEST_F(DrawnFigures, OfSeveralRunsShareTheirCurves) {
 
 TEST_F(DrawnFigures, AreDrawnByTheScriptAlone) {
   run_whole("a");
-  ASSERT_EQ(draw_svg("a", "b").exit_code, 0);
+  draw_svg("a", "b");
   const std::string python =
       "$(python3 -c 'import matplotlib' 2>&- && echo python3 || echo /usr/bin/python3) ";
   const auto alone = [&](const std::string& arguments) {

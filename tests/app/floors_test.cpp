@@ -36,8 +36,7 @@ class Floors : public CommandLine {
 
 TEST_F(Floors, EachAnswerNamesItsMapAndThePoseThere) {
   write_floors("trials: {every_m: 8, max_steps: 30}\n");
-  const Answer answer = run_floors();
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  good(run_floors());
   std::size_t right = 0, on_first = 0;
   for (const Json& trial : json_lines(file("results/indexed/trials.jsonl"))) {
     EXPECT_NE(trial["outcome"], "wrong");
@@ -60,8 +59,7 @@ TEST_F(Floors, EachAnswerNamesItsMapAndThePoseThere) {
 TEST_F(Floors, ALiftIsFollowed) {
   write_floors("trials: {whole: true}\n");
   change("    drives:\n", "    in_lift: true\n    drives:\n");
-  const Answer answer = run_floors();
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  good(run_floors());
   std::set<std::string> declared_on;
   for (const Json& step : json_lines(file("results/indexed/steps.jsonl"))) {
     if (step["verdict"] != "localized") continue;
@@ -72,21 +70,18 @@ TEST_F(Floors, ALiftIsFollowed) {
 
 TEST_F(Floors, LocalizeAndLiveTakeMoreMapsThanOne) {
   for (const char* seed : {"1", "2"}) {
-    const Answer made = run(std::string("simulate --site office --side 20 --length 40 --seed ") + seed +
-                            " --out " + file(std::string("floor_") + seed));
-    ASSERT_EQ(made.exit_code, 0) << made.err;
+    good(run(std::string("simulate --site office --side 20 --length 40 --seed ") + seed + " --out " +
+             file(std::string("floor_") + seed)));
   }
   const std::string maps = file("floor_1/map.yaml") + " ";
-  const Answer answer = run("localize " + maps + file("floor_2/drive.log") + " --also " +
-                            file("floor_2/map.yaml") + " --out " + file("results"));
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Answer answer = good(run("localize " + maps + file("floor_2/drive.log") + " --also " +
+                                 file("floor_2/map.yaml") + " --out " + file("results")));
   EXPECT_THAT(answer.out, HasSubstr("one of 2: "));
   EXPECT_THAT(answer.out, HasSubstr("floor_2/map.yaml: x "));
   EXPECT_THAT(answer.err, HasSubstr("reference poses do not say which of the maps they are on"));
-  ASSERT_EQ(run("convert " + file("floor_2/drive.log") + " --out " + file("drive.mcap")).exit_code, 0);
-  const Answer live = run("live " + maps + "--also " + file("floor_2/map.yaml") + " --recording " +
-                          file("drive.mcap") + " --out " + file("live"));
-  ASSERT_EQ(live.exit_code, 0) << live.err;
+  good(run("convert " + file("floor_2/drive.log") + " --out " + file("drive.mcap")));
+  const Answer live = good(run("live " + maps + "--also " + file("floor_2/map.yaml") + " --recording " +
+                               file("drive.mcap") + " --out " + file("live")));
   EXPECT_THAT(live.out, HasSubstr("localized"));
   EXPECT_THAT(live.out, HasSubstr("floor_2/map.yaml: x "));
 }

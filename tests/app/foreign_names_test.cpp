@@ -133,7 +133,7 @@ TEST_F(ForeignNames, OfResultsAreFitForATerminal) {
                 "schema: 1\nname: e\nmap: {simulation: {world: world.yaml}}\n"
                 "observations: {simulation: {world: world.yaml}}\ntrials: {starts_m: [0], max_steps: 2}\n");
   for (const std::string folder : {"a", "b"}) {
-    ASSERT_EQ(run("run " + file("e.yaml") + " --quiet --out " + file(folder)).exit_code, 0);
+    good(run("run " + file("e.yaml") + " --quiet --out " + file(folder)));
     for (const char* part : {"summary.json", "trials.jsonl", "steps.jsonl", "provenance.json"}) {
       std::string text = content(file(folder + "/" + part));
       for (const auto& [from, to] : {std::pair(R"("name":"e")", R"("name":"\u001b[31m\u009b")"),

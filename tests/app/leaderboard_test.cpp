@@ -39,16 +39,13 @@ class Leaderboard : public Room {
   }
 
   void pin() const {
-    const Answer answer = run("leaderboard pin tiny");
-    ASSERT_EQ(answer.exit_code, 0) << answer.err;
+    const Answer answer = good(run("leaderboard pin tiny"));
     folder_.write("configs/suites/tiny.yaml", suite_ + answer.out);
   }
 
   void run_and_add(const std::string& options = "") const {
-    const Answer ran = run("run --quiet --suite tiny@1 --method few --force --out " + file("results"));
-    ASSERT_EQ(ran.exit_code, 0) << ran.err;
-    const Answer added = run("leaderboard add " + file("results") + options);
-    ASSERT_EQ(added.exit_code, 0) << added.err;
+    good(run("run --quiet --suite tiny@1 --method few --force --out " + file("results")));
+    good(run("leaderboard add " + file("results") + options));
   }
 
   [[nodiscard]] Json entry() const { return json("leaderboard/tiny@1/few.json"); }
@@ -142,8 +139,7 @@ TEST_F(Leaderboard, WritesAPageOfWhatIsStored) {
   pin();
   run_and_add();
   const std::string page = file("board.html");
-  const Answer written = run("leaderboard -o " + page);
-  ASSERT_EQ(written.exit_code, 0) << written.err;
+  const Answer written = good(run("leaderboard -o " + page));
   EXPECT_EQ(written.out, page + "\n");
   const std::string first = content(page);
   const Json suite = data_in(first).head["suites"][0];
@@ -151,7 +147,7 @@ TEST_F(Leaderboard, WritesAPageOfWhatIsStored) {
   EXPECT_EQ(suite["entries"][0]["results"][1]["outcome"], entry()["results"][1]["outcome"]);
   EXPECT_EQ(suite["entries"][0]["renewals"].size(), 1U);
   EXPECT_THAT(run("leaderboard -o " + page).err, HasSubstr("board.html: error: "));
-  ASSERT_EQ(run("leaderboard --force -o " + page).exit_code, 0);
+  good(run("leaderboard --force -o " + page));
   EXPECT_EQ(content(page), first);
 }
 
@@ -176,10 +172,8 @@ TEST_F(Leaderboard, WritesNoPageOfWhatCannotBeRead) {
 
 TEST_F(Leaderboard, AShareIsKeptAndCheckedAsOne) {
   pin();
-  const Answer ran = run("run --quiet --suite tiny@1 --share 0.3 --method few --out " + file("results"));
-  ASSERT_EQ(ran.exit_code, 0) << ran.err;
-  const Answer added = run("leaderboard add " + file("results"));
-  ASSERT_EQ(added.exit_code, 0) << added.err;
+  good(run("run --quiet --suite tiny@1 --share 0.3 --method few --out " + file("results")));
+  good(run("leaderboard add " + file("results")));
   const Json entry = Json::parse(content(file("leaderboard/tiny@1/few.json")));
   EXPECT_EQ(entry["share"], 0.3);
   EXPECT_EQ(entry["provenance"]["command"], "glocal run --suite tiny@1 --method few --share 0.3");
@@ -228,8 +222,7 @@ TEST_F(Leaderboard, ImportedPosesAreJudgedLikeOnesOwn) {
                          pose.at("theta").get<double>() * 180.0 / 3.141592653589793, seed);
     }
   }
-  const Answer imported = import(csv);
-  ASSERT_EQ(imported.exit_code, 0) << imported.err;
+  good(import(csv));
   const Json theirs = json("leaderboard/tiny@1/theirs.json").at("results");
   Json ours = entry().at("results");
   for (Json& result : ours) result.erase("ms");
@@ -263,7 +256,7 @@ TEST_F(Leaderboard, WhatIsWrongWithImportedRowsIsSaidOfEach) {
 TEST_F(Leaderboard, PosesOfAnotherFrameAreToldByHowTheyFit) {
   pin();
   run_and_add();
-  EXPECT_EQ(import(moved_references(0.0)).exit_code, 0);
+  good(import(moved_references(0.0)));
   const Answer moved = import(moved_references(7.0));
   EXPECT_EQ(moved.exit_code, 2);
   EXPECT_TRUE(
@@ -274,8 +267,7 @@ TEST_F(Leaderboard, PosesOfAnotherFrameAreToldByHowTheyFit) {
 
 TEST_F(Leaderboard, ExportWritesPlainFilesWithoutReferences) {
   pin();
-  const Answer exported = run("leaderboard export tiny@1 --out " + file("plain"));
-  ASSERT_EQ(exported.exit_code, 0) << exported.err;
+  good(run("leaderboard export tiny@1 --out " + file("plain")));
   for (const char* name : {"map.yaml", "map.pgm", "map.pcd", "drive.mcap", "scans/odometry.tum"})
     EXPECT_TRUE(fs::exists(file("plain/small_room_seed-2/") + name)) << name;
   EXPECT_FALSE(fs::exists(file("plain/small_room_seed-2/scans/reference.tum")));
@@ -290,7 +282,7 @@ TEST_F(Leaderboard, ExportWritesPlainFilesWithoutReferences) {
   EXPECT_GT(scans, 10U);
   EXPECT_EQ(run("leaderboard export tiny@1 --out " + file("plain")).exit_code, 2);
   EXPECT_THAT(run("leaderboard export tiny@1 " + file("plain")).err, HasSubstr("-o says what to write"));
-  EXPECT_EQ(run("leaderboard export tiny@1 --force -o " + file("plain")).exit_code, 0);
+  good(run("leaderboard export tiny@1 --force -o " + file("plain")));
 }
 
 /// A Python that has numpy; empty if there is none.
@@ -305,12 +297,11 @@ TEST_F(Leaderboard, TheExampleInPythonFindsMostStartsOfASmallRoom) {
   const std::string python = python_with_numpy();
   if (python.empty()) GTEST_SKIP() << "there is no Python with numpy";
   pin();
-  ASSERT_EQ(run("leaderboard export tiny --out " + file("plain")).exit_code, 0);
+  good(run("leaderboard export tiny --out " + file("plain")));
   const std::string script = GLOCAL_SOURCE_DIR "/examples/python/particle_filter.py";
   ASSERT_EQ(std::system((python + " " + script + " " + file("plain") + " " + file("poses.csv")).c_str()), 0);
   const Answer imported =
-      run("leaderboard import " + file("poses.csv") + " --suite tiny --method particle_filter");
-  ASSERT_EQ(imported.exit_code, 0) << imported.err;
+      good(run("leaderboard import " + file("poses.csv") + " --suite tiny --method particle_filter"));
   std::smatch counts;
   ASSERT_TRUE(std::regex_search(imported.out, counts, std::regex("(\\d+) wrong, (\\d+) right")));
   EXPECT_LE(std::stoi(counts[1]), 2);

@@ -42,9 +42,8 @@ class Live : public CommandLine {
   }
   /// All that `localize` finds, but for times.
   [[nodiscard]] std::vector<Json> steps_of_localize(const std::string& recording) const {
-    const Answer answer = run("localize " + file("room/map.yaml") + " " + file(recording) +
-                              " --scans /scan --whole --force --out " + file("whole"));
-    EXPECT_EQ(answer.exit_code, 0) << answer.err;
+    good(run("localize " + file("room/map.yaml") + " " + file(recording) +
+             " --scans /scan --whole --force --out " + file("whole")));
     return comparable(file("whole/steps.jsonl"));
   }
   /// The first step in which they differ is told.
@@ -63,8 +62,7 @@ class Live : public CommandLine {
 };
 
 TEST_F(Live, FindsWhatLocalizeFindsOnTheRecording) {
-  const Answer answer = live("drive.mcap", "--out " + file("live"));
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Answer answer = good(live("drive.mcap", "--out " + file("live")));
   EXPECT_THAT(answer.out, HasSubstr("localized"));
   EXPECT_THAT(answer.out, HasSubstr("1 declarations"));
   const std::vector<Json> steps = comparable(file("live.steps.jsonl"));
@@ -74,7 +72,7 @@ TEST_F(Live, FindsWhatLocalizeFindsOnTheRecording) {
 
 TEST_F(Live, AVerificationInPiecesGoesOnBetweenSteps) {
   const std::string pieces = " --set localizer.looks_per_step=500";
-  ASSERT_EQ(live("drive.mcap", "--out " + file("live") + pieces).exit_code, 0);
+  good(live("drive.mcap", "--out " + file("live") + pieces));
   std::vector<Json> steps = comparable(file("live.steps.jsonl"));
   const auto waits = [](const Json& step) {
     return step.contains("verification") && step["verification"].contains("goes_on");
@@ -98,8 +96,7 @@ TEST_F(Live, StepsAreBoundedWhereARobotDrivesOnMeanwhile) {
 
 TEST_F(Live, GoesOnThoughStepsCannotBeWrittenButDoesNotBeginSo) {
   std::filesystem::create_symlink("/dev/full", file("live.steps.jsonl"));
-  const Answer full = live("drive.mcap", "--out " + file("live"));
-  EXPECT_EQ(full.exit_code, 0);
+  const Answer full = good(live("drive.mcap", "--out " + file("live")));
   EXPECT_THAT(full.err, HasSubstr("live.steps.jsonl: cannot write: No space left on device; steps are not"));
   EXPECT_THAT(full.out, HasSubstr("1 declarations"));
   std::filesystem::create_directory(file("other.steps.jsonl"));
@@ -109,8 +106,7 @@ TEST_F(Live, GoesOnThoughStepsCannotBeWrittenButDoesNotBeginSo) {
 }
 
 TEST_F(Live, ItsOwnRecordingGivesTheSameAnswers) {
-  const Answer answer = live("drive.mcap", "--tf --out " + file("live") + " --record " + file("again.mcap"));
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  good(live("drive.mcap", "--tf --out " + file("live") + " --record " + file("again.mcap")));
   expect_same(comparable(file("live.steps.jsonl")), steps_of_localize("again.mcap"));
   const Answer info = run("bag info " + file("again.mcap"));
   for (const char* topic : {"/initialpose", "/glocal/pose", "/glocal/candidates", "/diagnostics"})
@@ -122,12 +118,10 @@ TEST_F(Live, ItsOwnRecordingGivesTheSameAnswers) {
 
 TEST_F(Live, KnowsAfterAPowerCycleWhereItWas) {
   const std::string state = " --out " + file("live") + " --state " + file("state.json");
-  const Answer first = live("drive.mcap", state);
-  ASSERT_EQ(first.exit_code, 0) << first.err;
+  const Answer first = good(live("drive.mcap", state));
   EXPECT_THAT(first.out, Not(HasSubstr("was at")));
   // The drive begins anew at its start: the robot was carried there while it was off.
-  const Answer second = live("drive.mcap", state);
-  EXPECT_EQ(second.exit_code, 0) << second.err;
+  const Answer second = good(live("drive.mcap", state));
   EXPECT_THAT(second.out, HasSubstr("was at"));
   EXPECT_EQ(json_lines(file("live.steps.jsonl")).back()["verdict"], "localized");
 
@@ -138,10 +132,9 @@ TEST_F(Live, KnowsAfterAPowerCycleWhereItWas) {
 }
 
 TEST_F(Live, WithViewersAnswersAreTheSame) {
-  ASSERT_EQ(live("drive.mcap", "--out " + file("alone") + " --record " + file("alone.mcap")).exit_code, 0);
-  const Answer shown =
-      live("drive.mcap", "--foxglove --port 0 --out " + file("shown") + " --record " + file("shown.mcap"));
-  ASSERT_EQ(shown.exit_code, 0) << shown.err;
+  good(live("drive.mcap", "--out " + file("alone") + " --record " + file("alone.mcap")));
+  const Answer shown = good(
+      live("drive.mcap", "--foxglove --port 0 --out " + file("shown") + " --record " + file("shown.mcap")));
   EXPECT_THAT(shown.err, HasSubstr("foxglove: ws://127.0.0.1:"));
   expect_same(comparable(file("shown.steps.jsonl")), comparable(file("alone.steps.jsonl")));
   // The robot is not told more than without viewers.

@@ -14,8 +14,7 @@ class LocalizeWithPrior : public Room {
  protected:
   LocalizeWithPrior() {
     write_symmetric_world();
-    const Answer answer = run("simulate " + file("room.yaml") + " --out " + file("recorded"));
-    EXPECT_EQ(answer.exit_code, 0) << answer.err;
+    good(run("simulate " + file("room.yaml") + " --out " + file("recorded")));
   }
 
   [[nodiscard]] Answer localize(const std::string& options) const {
@@ -28,28 +27,24 @@ class LocalizeWithPrior : public Room {
 };
 
 TEST_F(LocalizeWithPrior, ARegionSettlesWhatSymmetryLeavesOpen) {
-  const Answer anywhere = localize("");
-  ASSERT_EQ(anywhere.exit_code, 0) << anywhere.err;
+  good(localize(""));
   EXPECT_EQ(trial()["outcome"], "undecided");
   EXPECT_THAT(content(file("found.yaml")), Not(HasSubstr("prior")));
 
   // The drive begins at (2, 3); its image at (10, 3).
-  const Answer left = localize("--region 2.5 3 3");
-  ASSERT_EQ(left.exit_code, 0) << left.err;
+  const Answer left = good(localize("--region 2.5 3 3"));
   EXPECT_EQ(trial()["outcome"], "right") << left.out;
   EXPECT_THAT(trial()["why"].get<std::string>(),
               HasSubstr("; only starts within 3 m of x 2.5, y 3 were looked at"));
   EXPECT_THAT(left.out, HasSubstr("prior       only starts within 3 m of x 2.5, y 3\n"));
   EXPECT_THAT(content(file("found.yaml")), HasSubstr("  prior: {region: {x: 2.5, y: 3, radius: 3}}\n"));
 
-  const Answer right = localize("--region 10 3 3");
-  ASSERT_EQ(right.exit_code, 0) << right.err;
+  good(localize("--region 10 3 3"));
   EXPECT_EQ(trial()["outcome"], "wrong") << "as the region is";
 }
 
 TEST_F(LocalizeWithPrior, AHeadingDoesSo) {
-  const Answer answer = localize("--heading -10 90");
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Answer answer = good(localize("--heading -10 90"));
   EXPECT_EQ(trial()["outcome"], "right") << answer.out;
   EXPECT_THAT(content(file("found.yaml")), HasSubstr("  prior: {heading: {deg: -10, width_deg: 90}}\n"));
 }

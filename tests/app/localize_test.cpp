@@ -46,8 +46,7 @@ class Localize : public CommandLine {
 };
 
 TEST_F(Localize, AMapAndARecordingAreEnough) {
-  const Answer answer = localize("room/drive.mcap", "--reference /truth");
-  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  const Answer answer = good(localize("room/drive.mcap", "--reference /truth"));
   EXPECT_THAT(answer.out, HasSubstr("scans       /scan: 1.0 Hz, 541 beams over 270.0 deg"));
   EXPECT_THAT(answer.out, HasSubstr("not used    /narrow"));
   EXPECT_THAT(answer.out, HasSubstr("robot       base_link, odometry by tf from odom"));
@@ -64,7 +63,7 @@ TEST_F(Localize, ErrorsNameItsOptions) {
   const Answer unknown = localize("room/drive.mcap", "--odom-frame world");
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_THAT(unknown.err, HasSubstr("set --odom-frame and --base-frame to frames of the tree"));
-  EXPECT_EQ(localize("room/drive.mcap", "--odom-frame odom --base-frame base_link").exit_code, 0);
+  good(localize("room/drive.mcap", "--odom-frame odom --base-frame base_link"));
 }
 
 TEST_F(Localize, RefusesMapsThatNoMachineHoldsBeforeAnythingIsMade) {
@@ -83,38 +82,36 @@ TEST_F(Localize, RefusesMapsThatNoMachineHoldsBeforeAnythingIsMade) {
   for (const float resolution : {1e-6F, 1e-30F, 0.0F, 1e30F})
     EXPECT_THAT(fault_of(resolution, {}), HasSubstr("must be 0.001 to 100 m"));
   EXPECT_THAT(fault_of(0.05F, {-1e7, 1e7, 0.0}), HasSubstr("at most 1e+07 m are allowed"));
-  EXPECT_EQ(answer_of(0.05F, {5e5, 5.4e6, 0.0}).exit_code, 0);  // Coordinates on Earth.
+  good(answer_of(0.05F, {5e5, 5.4e6, 0.0}));  // Coordinates on Earth.
 }
 
 TEST_F(Localize, WithoutReferencesItTellsWhetherItAgreesWithItself) {
-  const Answer answer = localize("room/drive.mcap", "--every 2");
-  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  const Answer answer = good(localize("room/drive.mcap", "--every 2"));
   EXPECT_THAT(answer.out, HasSubstr("declared without reference pose"));
   EXPECT_THAT(answer.out, HasSubstr("all declared poses agree with each other along the drive"));
   EXPECT_THAT(answer.out, Not(HasSubstr("success")));
 }
 
 TEST_F(Localize, TheExperimentThatItWritesGivesTheSameAnswer) {
-  ASSERT_EQ(localize("room/drive.mcap").exit_code, 0);
-  ASSERT_EQ(run("run " + file("answer.yaml") + " --out " + file("again")).exit_code, 0);
+  good(localize("room/drive.mcap"));
+  good(run("run " + file("answer.yaml") + " --out " + file("again")));
   EXPECT_EQ(content(file("again/trials.jsonl")), content(file("answer/trials.jsonl")));
   EXPECT_THAT(content(file("answer.yaml")), HasSubstr("scans: [\"/scan\"]"));
 }
 
 TEST_F(Localize, CarmenLogsAreReadAsWell) {
-  const Answer answer = localize("room/drive.log", "--every 3");
-  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  const Answer answer = good(localize("room/drive.log", "--every 3"));
   EXPECT_THAT(answer.out, HasSubstr("from 0.0 m: localized after "));
   EXPECT_THAT(answer.out, HasSubstr("  trials              "));
   EXPECT_THAT(answer.out, Not(HasSubstr(" wrong: ")));
 }
 
 TEST_F(Localize, AnAnswerThatIsInTheWayStays) {
-  ASSERT_EQ(localize("room/drive.mcap").exit_code, 0);
+  good(localize("room/drive.mcap"));
   const Answer other = localize("room/drive.mcap", "--start 2");
   EXPECT_EQ(other.exit_code, 2);
   EXPECT_THAT(other.err, HasSubstr("answer.yaml"));
-  EXPECT_EQ(localize("room/drive.mcap", "--start 2 --force").exit_code, 0);
+  good(localize("room/drive.mcap", "--start 2 --force"));
 }
 
 TEST_F(Localize, WhatIsNeitherMapNorLogIsRefused) {
@@ -134,13 +131,12 @@ TEST_F(Localize, WhatIsNeitherMapNorLogIsRefused) {
 TEST_F(Localize, ARealDriveIsFoundInItsBuildingsPlan) {
   const auto folder = dataset("bags/jarvis");
   if (folder.empty()) GTEST_SKIP() << "set GLOCAL_DATASETS to run this";
-  const Answer answer =
+  const Answer answer = good(
       run("localize " + (folder / "i-108_10mm.yaml").string() + " " +
           (folder / "jarvis_circular_path_fast.bag").string() +
           " --every 2 --reference /pose_ground_truth --set observations.bag.reference.x=14.60635" +
           " --set observations.bag.reference.y=3.34242 --set observations.bag.reference.yaw_deg=-1.53605" +
-          " --set observations.bag.reference.time_shift=0.135 --out " + file("answer"));
-  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+          " --set observations.bag.reference.time_shift=0.135 --out " + file("answer")));
   EXPECT_THAT(answer.out, HasSubstr("trials              6: 6 right, 0 wrong, 0 undecided"));
 }
 

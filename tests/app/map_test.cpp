@@ -24,7 +24,7 @@ class MapCommand : public CommandLine {
   /// Writes the map of the paper's laboratory as lab.yaml, and its image laid elsewhere as `name`.
   void write_lab(const std::string& name, const std::string& origin) {
     const std::string experiment = std::string(GLOCAL_SOURCE_DIR) + "/configs/experiments/paper_lab.yaml";
-    ASSERT_EQ(run("map convert " + experiment + " -o " + file("lab.yaml")).exit_code, 0);
+    good(run("map convert " + experiment + " -o " + file("lab.yaml")));
     std::string moved = content(file("lab.yaml"));
     const std::string key = "origin: ";
     const std::size_t at = moved.find(key + "[") + key.size();
@@ -34,18 +34,17 @@ class MapCommand : public CommandLine {
 };
 
 TEST_F(MapCommand, BuildsShowsAndConverts) {
-  Answer answer = run("map build " + file("drive.log") + " -o " + file("a.yaml") + " --set resolution=0.5");
-  EXPECT_EQ(answer.exit_code, 0) << answer.err;
-  answer = run("map info " + file("a.yaml"));
-  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  Answer answer =
+      good(run("map build " + file("drive.log") + " -o " + file("a.yaml") + " --set resolution=0.5"));
+  answer = good(run("map info " + file("a.yaml")));
   // Columns from 0 m to 2 m, rows from -1 m to 0 m; the robot stands in the cell above the axis.
   EXPECT_THAT(answer.out, StartsWith("cells       5 x 3 of 0.5 m: 2.50 m x 1.50 m\n"));
   EXPECT_THAT(answer.out, HasSubstr("occupied    2\nfree        5 (1.2 m^2)\nunknown     8\n"));
   EXPECT_THAT(answer.out, HasSubstr("points      2: x 0.25 to 2.25 m, y -0.75 to 0.25 m\n"));
 
-  EXPECT_EQ(run("map convert " + file("a.yaml") + " -o " + file("b.yaml") + " --image png").exit_code, 0);
+  good(run("map convert " + file("a.yaml") + " -o " + file("b.yaml") + " --image png"));
   EXPECT_EQ(run("map info " + file("b.yaml")).out, answer.out);
-  EXPECT_EQ(run("map convert " + file("a.yaml") + " -o " + file("c.pcd")).exit_code, 0);
+  good(run("map convert " + file("a.yaml") + " -o " + file("c.pcd")));
   EXPECT_THAT(content(file("c.pcd")), HasSubstr("POINTS 2\n"));
 }
 
@@ -56,8 +55,8 @@ TEST_F(MapCommand, AlignsAMapWithACopyInAnotherFrame) {
   const Answer info = run("map info " + file("lab.yaml"));
   ASSERT_THAT(info.out, HasSubstr("origin      x -0.015 m, y -0.015 m, yaw 0.00 deg"));
 
-  const Answer answer = run("map align " + file("moved.yaml") + " " + file("lab.yaml") + " --epsilon 0.1");
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Answer answer =
+      good(run("map align " + file("moved.yaml") + " " + file("lab.yaml") + " --epsilon 0.1"));
   double x = 0.0;
   double y = 0.0;
   double yaw = 0.0;
@@ -79,9 +78,9 @@ TEST_F(MapCommand, KeepsTheFrameOfAMapFarAway) {
   EXPECT_THAT(info.out, HasSubstr("origin      x 500000.250 m, y 4649776.000 m, yaw 0.00 deg\n"));
   EXPECT_THAT(info.out,
               HasSubstr("points      2: x 500000.50 to 500001.00 m, y 4649776.25 to 4649776.75 m\n"));
-  ASSERT_EQ(run("map convert " + file("far.yaml") + " -o " + file("again.yaml")).exit_code, 0);
+  good(run("map convert " + file("far.yaml") + " -o " + file("again.yaml")));
   EXPECT_THAT(content(file("again.yaml")), HasSubstr("origin: [500000.25, 4649776, 0]\n"));
-  ASSERT_EQ(run("map convert " + file("far.yaml") + " -o " + file("far.pcd")).exit_code, 0);
+  good(run("map convert " + file("far.yaml") + " -o " + file("far.pcd")));
   EXPECT_THAT(content(file("far.pcd")), HasSubstr("SIZE 8 8 8\n"));
   std::ofstream(file("cloud.yaml")) << "schema: 1\nname: cloud\nmap: {point_cloud: {path: far.pcd}}\n"
                                        "observations: {carmen_log: {path: drive.log}}\n"
@@ -101,9 +100,7 @@ TEST_F(MapCommand, AlignsAMapWithOneFarAway) {
 }
 
 TEST_F(MapCommand, SaysWhereMapsDoNotFit) {
-  ASSERT_EQ(
-      run("map build " + file("drive.log") + " -o " + file("tiny.yaml") + " --set resolution=0.5").exit_code,
-      0);
+  good(run("map build " + file("drive.log") + " -o " + file("tiny.yaml") + " --set resolution=0.5"));
   const std::string lab = std::string(GLOCAL_SOURCE_DIR) + "/configs/experiments/paper_lab.yaml";
   const Answer answer = run("map align " + file("tiny.yaml") + " " + lab);
   EXPECT_EQ(answer.exit_code, 1);
@@ -112,14 +109,14 @@ TEST_F(MapCommand, SaysWhereMapsDoNotFit) {
 
 TEST_F(MapCommand, ReplacesFilesOnlyByForce) {
   const std::string build = "map build " + file("drive.log") + " -o " + file("a.yaml");
-  EXPECT_EQ(run(build).exit_code, 0);
+  good(run(build));
   const std::string before = content(file("a.yaml"));
   const Answer refused = run(build + " --set resolution=0.5");
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err,
               HasSubstr("a.pgm: error: the file exists; choose another name, or replace it with --force"));
   EXPECT_EQ(content(file("a.yaml")), before);
-  EXPECT_EQ(run(build + " --set resolution=0.5 --force").exit_code, 0);
+  good(run(build + " --set resolution=0.5 --force"));
   EXPECT_NE(content(file("a.yaml")), before);
 }
 

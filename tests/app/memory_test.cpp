@@ -31,8 +31,7 @@ TEST_F(Memory, LocalizeTakes150MBInAnOfficeOf100MetresAtMost) {
 #ifdef GLOCAL_MORE_MEMORY
   GTEST_SKIP() << "sanitizers and emulators take memory of their own";
 #endif
-  ASSERT_EQ(run("simulate --site office --side 100 --length 20 --starts 1 --out " + file("office")).exit_code,
-            0);
+  good(run("simulate --site office --side 100 --length 20 --starts 1 --out " + file("office")));
   EXPECT_LE(peak("localize " + file("office/map.yaml") + " " + file("office/drive.log") + " --out " +
                  file("answer")),
             150);

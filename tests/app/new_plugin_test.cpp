@@ -26,8 +26,7 @@ class NewPluginCommand : public CommandLine {
 };
 
 TEST_F(NewPluginCommand, WritesFilesWithoutPlaceholders) {
-  const Answer answer = run("new-plugin verdict_rule very_sure -o " + folder().string());
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Answer answer = good(run("new-plugin verdict_rule very_sure -o " + folder().string()));
   EXPECT_THAT(answer.out, HasSubstr("ctest --test-dir"));
   for (const char* name : {"CMakeLists.txt", "very_sure.cpp", "experiment.yaml", "world.yaml"}) {
     EXPECT_THAT(content(folder() / name), AllOf(Not(HasSubstr("@")), Not(testing::IsEmpty()))) << name;

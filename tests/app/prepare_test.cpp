@@ -25,7 +25,7 @@ class PrepareCommand : public CommandLine {
            "map: {simulation: {world: world.yaml}}\n"
            "observations: {simulation: {world: world.yaml, tour_legs: 8, step_length: 0.2}}\n"
            "trials: {whole: true}\n";
-    EXPECT_EQ(run("simulate " + file("experiment.yaml") + " --out " + file("simulated")).exit_code, 0);
+    good(run("simulate " + file("experiment.yaml") + " --out " + file("simulated")));
     std::ifstream log(file("simulated/drive.log"));
     std::ofstream raw(file("raw.log"));
     for (std::string line; std::getline(log, line);) {
@@ -60,18 +60,16 @@ class PrepareCommand : public CommandLine {
 TEST_F(PrepareCommand, ALogAndATrajectoryBecomeACaseThatRuns) {
   write_trajectory("slam.tum", 0.0);
   const Answer answer =
-      prepare(file("raw.log") + " --corrected " + file("slam.tum") + " --out " + file("my.case"));
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+      good(prepare(file("raw.log") + " --corrected " + file("slam.tum") + " --out " + file("my.case")));
   EXPECT_EQ(answer.err, "");
   EXPECT_THAT(answer.out, HasSubstr("jumps       0 of the reference against odometry\n"));
   EXPECT_THAT(content(file("my.case/README.md")), HasSubstr("## Warnings\n\nNone.\n"));
   EXPECT_THAT(content(file("my.case/README.md")), HasSubstr("| reference | slam.tum |"));
   EXPECT_THAT(content(file("my.case/experiment.yaml")), HasSubstr("\nname: my\n"));
   EXPECT_THAT(content(file("my.case/provenance.json")), HasSubstr("slam.tum"));
-  EXPECT_EQ(run("map info " + file("my.case/map.yaml")).exit_code, 0);
+  good(run("map info " + file("my.case/map.yaml")));
   std::filesystem::rename(file("my.case"), file("moved"));
-  const Answer ran = run("run " + file("moved/experiment.yaml") + " --quiet --out " + file("results"));
-  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  good(run("run " + file("moved/experiment.yaml") + " --quiet --out " + file("results")));
   const auto trials = nlohmann::json::parse(content(file("results/summary.json")))["trials"];
   EXPECT_GT(trials["right"], 0);
   EXPECT_EQ(trials["wrong"], 0);
@@ -80,27 +78,22 @@ TEST_F(PrepareCommand, ALogAndATrajectoryBecomeACaseThatRuns) {
 TEST_F(PrepareCommand, AShiftIsFoundAndTheOneThatIsGivenMendsIt) {
   write_trajectory("late.tum", 0.4);
   const std::string inputs = file("raw.log") + " --corrected " + file("late.tum");
-  const Answer late = prepare(inputs + " --out " + file("late"));
-  ASSERT_EQ(late.exit_code, 0) << late.err;
+  const Answer late = good(prepare(inputs + " --out " + file("late")));
   EXPECT_THAT(late.err, HasSubstr("give --shift -0.4"));
   EXPECT_THAT(content(file("late/README.md")), HasSubstr("give --shift -0.4"));
-  const Answer mended = prepare(inputs + " --shift -0.4 --out " + file("mended"));
-  ASSERT_EQ(mended.exit_code, 0) << mended.err;
+  const Answer mended = good(prepare(inputs + " --shift -0.4 --out " + file("mended")));
   EXPECT_EQ(mended.err, "");
 }
 
 TEST_F(PrepareCommand, ALogWithReferencePosesNeedsNoOther) {
-  const Answer answer =
-      prepare(file("simulated/drive.log") + " --blocks 2 --map-share 0.6 --out " + file("a"));
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  good(prepare(file("simulated/drive.log") + " --blocks 2 --map-share 0.6 --out " + file("a")));
   EXPECT_THAT(content(file("a/experiment.yaml")), HasSubstr("segments: [[0, 0.3], [0.5, 0.8]]"));
   EXPECT_THAT(content(file("a/experiment.yaml")), HasSubstr("segments: [[0.3, 0.5], [0.8, 1]]"));
-  const Answer again = prepare(file("raw.log") + " --corrected " + file("simulated/drive.log") +
-                               " --blocks 2" + " --map-share 0.6 --out " + file("b"));
-  ASSERT_EQ(again.exit_code, 0) << again.err;
+  good(prepare(file("raw.log") + " --corrected " + file("simulated/drive.log") + " --blocks 2" +
+               " --map-share 0.6 --out " + file("b")));
   EXPECT_EQ(content(file("a/drive.log")), content(file("b/drive.log")));
   expect_fault(prepare(file("raw.log") + " --out " + file("a")), "the folder exists and is not empty");
-  EXPECT_EQ(prepare(file("simulated/drive.log") + " --force --out " + file("a")).exit_code, 0);
+  good(prepare(file("simulated/drive.log") + " --force --out " + file("a")));
 }
 
 TEST_F(PrepareCommand, WhatDoesNotFitIsSaid) {
@@ -118,8 +111,7 @@ TEST_F(PrepareCommand, WhatDoesNotFitIsSaid) {
   }
   moved.close();
   const Answer answer =
-      prepare(file("raw.log") + " --corrected " + file("moved.tum") + " --out " + file("jumps"));
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+      good(prepare(file("raw.log") + " --corrected " + file("moved.tum") + " --out " + file("jumps")));
   EXPECT_THAT(answer.err,
               HasSubstr("the reference jumps against odometry, 1 in all; the largest, by 1.50 m"));
 }
@@ -154,10 +146,9 @@ TEST_F(PrepareCommand, CloudsBecomeACaseInSpace) {
   const char* const data = std::getenv("GLOCAL_DATASETS");
   const std::string drive = std::string(data == nullptr ? "" : data) + "/lidar3d/fr_079/drives/d0";
   if (!std::filesystem::exists(drive)) GTEST_SKIP() << "no lidar3d in GLOCAL_DATASETS";
-  const Answer answer = prepare(drive + " --corrected " + drive + "/poses.tum --out " + file("clouds"));
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Answer answer = good(prepare(drive + " --corrected " + drive + "/poses.tum --out " + file("clouds")));
   EXPECT_THAT(answer.out, HasSubstr("scans       25 of 25 with a reference pose"));
-  EXPECT_EQ(run("check " + file("clouds/experiment.yaml")).exit_code, 0);
+  good(run("check " + file("clouds/experiment.yaml")));
   EXPECT_TRUE(std::filesystem::exists(file("clouds/map.pcd")));
 }
 
@@ -166,15 +157,15 @@ TEST_F(PrepareCommand, RealDrivesAreChecked) {
   const std::filesystem::path folder = data == nullptr ? "" : data;
   if (!std::filesystem::exists(folder / "bags/jarvis") || !std::filesystem::exists(folder / "fr079"))
     GTEST_SKIP() << "no bags/jarvis and fr079 in GLOCAL_DATASETS";
-  const Answer bag = prepare((folder / "bags/jarvis/jarvis_circular_path_fast.bag").string() +
-                             " --scans /driver_laser_navigation/laser_scan --reference /pose_ground_truth "
-                             "--out " +
-                             file("jarvis"));
-  ASSERT_EQ(bag.exit_code, 0) << bag.err;
+  const Answer bag =
+      good(prepare((folder / "bags/jarvis/jarvis_circular_path_fast.bag").string() +
+                   " --scans /driver_laser_navigation/laser_scan --reference /pose_ground_truth "
+                   "--out " +
+                   file("jarvis")));
   EXPECT_THAT(bag.err, HasSubstr("the scans fit each other better if the reference's stamps are moved by"));
-  const Answer log = prepare((folder / "fr079/fr079.log.xz").string() + " --relations " +
-                             (folder / "fr079/fr079.relations.xz").string() + " --out " + file("fr079"));
-  ASSERT_EQ(log.exit_code, 0) << log.err;
+  const Answer log =
+      good(prepare((folder / "fr079/fr079.log.xz").string() + " --relations " +
+                   (folder / "fr079/fr079.relations.xz").string() + " --out " + file("fr079")));
   EXPECT_THAT(log.out, HasSubstr("relations   1685: errors of 0.046 m")) << "as the data's README has it";
   EXPECT_THAT(log.err, HasSubstr("the clock of the odometry is off"));
   EXPECT_THAT(log.err, Not(HasSubstr("give --shift")));

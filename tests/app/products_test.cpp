@@ -24,9 +24,8 @@ class ProductsCommand : public Room {
 
 TEST_F(ProductsCommand, RunLeavesAFolderForEachMethodCaseAndSeed) {
   const std::string out = file("results");
-  const Answer answer = run("run --quiet --method " + file("few.yaml") + " --method " + file("many.yaml") +
-                            case_option() + "--seeds 1..2 --out " + out);
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  good(run("run --quiet --method " + file("few.yaml") + " --method " + file("many.yaml") + case_option() +
+           "--seeds 1..2 --out " + out));
   for (const char* name : {"few_small_room_seed-1", "few_small_room_seed-2", "many_small_room_seed-1",
                            "many_small_room_seed-2"}) {
     const Json provenance = Json::parse(content(out + "/" + name + "/provenance.json"));
@@ -38,9 +37,8 @@ TEST_F(ProductsCommand, RunLeavesAFolderForEachMethodCaseAndSeed) {
 }
 
 TEST_F(ProductsCommand, JobsAreGivenTheNamesToo) {
-  const Answer answer = run("submit --parallel --dry-run --shards 2 --method " + file("few.yaml") +
-                            case_option() + "--seeds 1..2 --out " + file("shared"));
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Answer answer = good(run("submit --parallel --dry-run --shards 2 --method " + file("few.yaml") +
+                                 case_option() + "--seeds 1..2 --out " + file("shared")));
   EXPECT_THAT(answer.out,
               HasSubstr(" run --method " + file("few.yaml") + case_option() + "--seeds 1..2 --shard"));
 }
@@ -49,8 +47,7 @@ TEST_F(ProductsCommand, AFileThatLacksOnlyAMethodIsGivenOne) {
   folder_.write(
       "lacks.yaml",
       "schema: 1\nname: lacks\ncases: [small_room.yaml]\nevaluation: {max_translation_error: 0.4}\n");
-  const Answer answer = run("check " + file("lacks.yaml") + " --method " + file("few.yaml"));
-  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  good(run("check " + file("lacks.yaml") + " --method " + file("few.yaml")));
 }
 
 TEST_F(ProductsCommand, HalfAnExperimentIsRefused) {

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 
 #include "temporary_folder.hpp"
@@ -18,6 +19,13 @@ struct Answer {
   std::string out;
   std::string err;
 };
+
+/// The answer of a command that has done what it was asked to; the test ends here if it has not.
+inline Answer good(Answer answer, const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
+  if (answer.exit_code == 0) return answer;
+  ADD_FAILURE_AT(file, line) << "exit code " << answer.exit_code << "\n" << answer.err;
+  throw std::runtime_error("the test cannot go on");
+}
 
 class CommandLine : public testing::Test {
  protected:
@@ -55,7 +63,7 @@ class CommandLine : public testing::Test {
                   "map:\n  simulation: {world: world.yaml, resolution: 0.05}\n"
                   "observations:\n  simulation: {world: world.yaml, laser: {fov_deg: 270}}\n"
                   "trials: {whole: true}\n");
-    EXPECT_EQ(run("simulate " + file("room.yaml") + " --out " + file("room")).exit_code, 0);
+    good(run("simulate " + file("room.yaml") + " --out " + file("room")));
   }
 
   TemporaryFolder folder_;

@@ -38,8 +38,7 @@ class RegisterCommand : public CommandLine {
 
 TEST_F(RegisterCommand, SaysThePoseAndJoinsTheClouds) {
   const Answer answer =
-      run("register " + file("source.pcd") + " " + file("target.pcd") + " -o " + file("both.pcd"));
-  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+      good(run("register " + file("source.pcd") + " " + file("target.pcd") + " -o " + file("both.pcd")));
   EXPECT_THAT(answer.out, StartsWith("match: score "));
   EXPECT_THAT(answer.out, HasSubstr("quaternion x y z w"));
   const Points both = read_pcd(file("both.pcd"));
@@ -62,8 +61,7 @@ TEST_F(RegisterCommand, SaysThePoseAndJoinsTheClouds) {
 TEST_F(RegisterCommand, MakesATableOfPairs) {
   std::ofstream(file("pairs.csv")) << "source,target,tx,ty,tz,qx,qy,qz,qw,class\nsource.pcd,target.pcd,"
                                    << truth() << ",easy\nsource.pcd,target.pcd,1,2,3,0,0,0,1,odd\n";
-  const Answer table = run("register --pairs " + file("pairs.csv"));
-  EXPECT_EQ(table.exit_code, 0) << table.err;
+  const Answer table = good(run("register --pairs " + file("pairs.csv")));
   EXPECT_THAT(table.out, HasSubstr("easy              1        1       1          0 of 1          0 of 0"));
   EXPECT_THAT(table.out, HasSubstr("odd               1        1       0          0 of 0          1 of 1"));
   EXPECT_THAT(table.out, HasSubstr("all               2        2       1"));
@@ -88,8 +86,7 @@ TEST_F(RegisterCommand, ComparesMethodsByName) {
   std::ofstream(file("pairs.csv")) << "source,target\nsource.pcd,target.pcd\n";
   const Answer unnamed = run("register --json --pairs " + file("pairs.csv"));
   EXPECT_FALSE(nlohmann::json::parse(unnamed.out).contains("method"));
-  const Answer named = run("register --json --method surfel_pairs --pairs " + file("pairs.csv"));
-  EXPECT_EQ(named.exit_code, 0) << named.err;
+  const Answer named = good(run("register --json --method surfel_pairs --pairs " + file("pairs.csv")));
   auto json = nlohmann::json::parse(named.out);
   EXPECT_EQ(json["method"], "surfel_pairs");
   EXPECT_EQ(json["target_from_source"], nlohmann::json::parse(unnamed.out)["target_from_source"]);
@@ -111,8 +108,7 @@ TEST_F(RegisterCommand, SetsTheParametersOfItsMethods) {
   const std::string clouds = file("source.pcd") + " " + file("target.pcd");
   const std::string plugin = " --plugin " + std::string(GLOCAL_TEST_PLUGINS) + "/every_kind.so ";
   const auto x_of = [&](const std::string& options) {
-    const Answer answer = run("register --json --method ahead " + clouds + plugin + options);
-    EXPECT_EQ(answer.exit_code, 0) << answer.err;
+    const Answer answer = good(run("register --json --method ahead " + clouds + plugin + options));
     return nlohmann::json::parse(answer.out)["target_from_source"]["translation"][0].get<double>();
   };
   EXPECT_EQ(x_of(""), 1.0);
@@ -120,8 +116,7 @@ TEST_F(RegisterCommand, SetsTheParametersOfItsMethods) {
   EXPECT_EQ(x_of("--set ahead.by=2.5 --set ahead.by=3"), 3.0);
   // Those of one method leave another alone.
   const std::string both = "register --method surfel_pairs,ahead " + clouds + plugin;
-  const Answer answer = run(both + "--json --set ahead.by=2.5");
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Answer answer = good(run(both + "--json --set ahead.by=2.5"));
   const auto own = nlohmann::json::parse(answer.out.substr(0, answer.out.find('\n')));
   const auto unset = nlohmann::json::parse(run("register --json " + clouds).out);
   EXPECT_EQ(own["target_from_source"], unset["target_from_source"]);

@@ -18,14 +18,12 @@ class ReliabilityCommand : public CommandLine {
 
   /// The results of one short trial in the simulated lab.
   void run_lab(const std::string& options = "") const {
-    const Answer answer =
-        run("run " + std::string(GLOCAL_SOURCE_DIR) + "/configs/experiments/paper_lab.yaml --quiet --out " +
-            folder() +
-            " --set 'trials={starts_m: [0], max_steps: 4}' --set localizer.verdict_rule=staged_margin"
-            " --set localizer.matcher=indexed_ransam --set 'localizer.threshold_policy={fixed: {omega_max: "
-            "0.1}}' " +
-            options);
-    ASSERT_EQ(answer.exit_code, 0) << answer.err;
+    good(run("run " + std::string(GLOCAL_SOURCE_DIR) + "/configs/experiments/paper_lab.yaml --quiet --out " +
+             folder() +
+             " --set 'trials={starts_m: [0], max_steps: 4}' --set localizer.verdict_rule=staged_margin"
+             " --set localizer.matcher=indexed_ransam --set 'localizer.threshold_policy={fixed: {omega_max: "
+             "0.1}}' " +
+             options));
   }
 };
 
@@ -54,8 +52,7 @@ nlohmann::json declaring(int trial, int number) {
 
 TEST_F(ReliabilityCommand, ReadsWhatRunHasLeft) {
   run_lab();
-  const Answer answer = run("reliability " + folder());
-  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  const Answer answer = good(run("reliability " + folder()));
   EXPECT_THAT(answer.out, HasSubstr("1 trials: 1 right, 0 wrong"));
   EXPECT_THAT(answer.out, HasSubstr("Normalised error squared of right declarations"));
 }
@@ -72,8 +69,7 @@ TEST_F(ReliabilityCommand, CountsByConfidence) {
                  {{"outcome", "undecided"}}},
                 {step(0, 0, 0.2, 0.1, 1.0), step(0, 1, 0.8, 9.0, 1.0), step(1, 0, 0.6, 9.0, 1.0),
                  step(1, 1, 0.25, 0.1, 11.0)});
-  const Answer answer = run("reliability " + folder());
-  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  const Answer answer = good(run("reliability " + folder()));
   EXPECT_THAT(answer.out, HasSubstr("5 trials: 3 right, 1 wrong (20.00 %"));
   EXPECT_THAT(answer.out, HasSubstr("0.90 - 0.97        4  0.950    0.750"));
   EXPECT_THAT(answer.out, HasSubstr("0.10 - 0.30        2  0.225    0.500"));

@@ -117,10 +117,9 @@ Millimetres points_of(const std::string& file) {
 
 TEST_F(ReportCommand, HasEveryLineMapAndScanOfTheRun) {
   write_experiment("trials: {every_scan: 6, max_steps: 5}\n", "output: {maps: all}\n");
-  ASSERT_EQ(run_room("a").exit_code, 0);
-  ASSERT_EQ(run_room("b", "--quiet --set localizer.verdict_rule=staged_margin").exit_code, 0);
-  const Answer answer = report(file("a") + " " + file("b"));
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  good(run_room("a"));
+  good(run_room("b", "--quiet --set localizer.verdict_rule=staged_margin"));
+  const Answer answer = good(report(file("a") + " " + file("b")));
   EXPECT_EQ(answer.out, file("report.html") + "\n");
   const Json data = data_of("report.html");
   EXPECT_EQ(data["maps"].size(), 1U);
@@ -183,10 +182,9 @@ TEST_F(ReportCommand, HasEveryLineMapAndScanOfTheRun) {
 TEST_F(ReportCommand, TakesFoldersOfRunsAndNamesWhatever) {
   write_experiment("trials: {every_scan: 12, max_steps: 3}\n");
   const std::string name = "a<b & \xff";
-  ASSERT_EQ(run("run " + file("room.yaml") + " --quiet --out '" + file("all/" + name) + "'").exit_code, 0);
-  ASSERT_EQ(run_room("all/plain").exit_code, 0);
-  const Answer answer = report(file("all"), "--baseline plain --clusters 2");
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  good(run("run " + file("room.yaml") + " --quiet --out '" + file("all/" + name) + "'"));
+  good(run_room("all/plain"));
+  good(report(file("all"), "--baseline plain --clusters 2"));
   const Json data = data_of("report.html");
   EXPECT_EQ(data["runs"][0]["name"], "a<b & \xef\xbf\xbd");
   EXPECT_EQ(data["comparison"]["baseline"], "plain");
@@ -196,8 +194,8 @@ TEST_F(ReportCommand, TakesFoldersOfRunsAndNamesWhatever) {
 }
 
 TEST_F(ReportCommand, RefusesWhatItCannotShowInOneGo) {
-  ASSERT_EQ(run_room("a").exit_code, 0);
-  ASSERT_EQ(run_room("b").exit_code, 0);
+  good(run_room("a"));
+  good(run_room("b"));
   expect_refused(file("missing"), "is no folder");
   expect_refused(file("a") + " " + file("a/../a"), "is named twice");
   expect_refused(file("a") + " " + file("b") + " --baseline c",
@@ -212,23 +210,21 @@ TEST_F(ReportCommand, RefusesWhatItCannotShowInOneGo) {
 }
 
 TEST_F(ReportCommand, ReplacesAFileOnlyByForce) {
-  ASSERT_EQ(run_room("a").exit_code, 0);
+  good(run_room("a"));
   std::ofstream(file("report.html")) << "mine";
   const Answer refused = report(file("a"));
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err, HasSubstr("--force"));
   EXPECT_EQ(content(file("report.html")), "mine");
-  EXPECT_EQ(report(file("a"), "--force").exit_code, 0);
+  good(report(file("a"), "--force"));
   EXPECT_THAT(content(file("report.html")), Not(HasSubstr("mine")));
 }
 
 TEST_F(ReportCommand, IsSmallForAWholeDrive) {
   const std::string experiment = GLOCAL_SOURCE_DIR "/configs/experiments/paper_simulation.yaml";
-  ASSERT_EQ(
-      run("run " + experiment + " --quiet --set localizer.matcher.ransam.iterations=20000 --out " + file("a"))
-          .exit_code,
-      0);
-  ASSERT_EQ(report(file("a")).exit_code, 0);
+  good(run("run " + experiment + " --quiet --set localizer.matcher.ransam.iterations=20000 --out " +
+           file("a")));
+  good(report(file("a")));
   const Json data = data_of("report.html");
   const Json& trial = data["runs"][0]["trials"][0];
   EXPECT_EQ(trial["local_map"]["steps"].size(), 136U);

@@ -66,8 +66,7 @@ TEST_F(RunAgain, AKilledRunIsGoneOnWithAndNothingIsRunTwice) {
     kill_run(out, SIGKILL, [&] { return journal("." + out + ".unfinished").size() >= 3; }, {"--jobs", jobs});
     EXPECT_FALSE(fs::exists(file(out)));
     const auto before = journal("." + out + ".unfinished");
-    const Answer answer = run_room(out, "--jobs " + jobs);
-    ASSERT_EQ(answer.exit_code, 0) << answer.err;
+    const Answer answer = good(run_room(out, "--jobs " + jobs));
     EXPECT_THAT(
         answer.err,
         HasSubstr("goes on where an earlier run has stopped: " + std::to_string(before.size()) + " of "));
@@ -76,7 +75,7 @@ TEST_F(RunAgain, AKilledRunIsGoneOnWithAndNothingIsRunTwice) {
     EXPECT_FALSE(fs::exists(file("." + out + ".unfinished")));
     EXPECT_FALSE(fs::exists(file("." + out + ".lock")));
   }
-  ASSERT_EQ(run_room("whole").exit_code, 0);
+  good(run_room("whole"));
   expect_same_results("whole", "jobs1");
   expect_same_results("whole", "jobs2");
 }
@@ -86,12 +85,11 @@ TEST_F(RunAgain, AKilledVariantIsGoneOnWith) {
                    "variants: {grid: {localizer.matcher.ransam.iterations: [10000, 20000]}}\n");
   kill_run("all", SIGKILL, [&] { return !journal("all/.iterations-20000.unfinished").empty(); });
   const auto before = journal("all/.iterations-20000.unfinished");
-  const Answer answer = run_room("all", "");
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Answer answer = good(run_room("all", ""));
   EXPECT_THAT(answer.err, AllOf(HasSubstr("iterations-10000: kept"),
                                 HasSubstr("iterations-20000: goes on where an earlier run has stopped: " +
                                           std::to_string(before.size()) + " of ")));
-  ASSERT_EQ(run_room("whole").exit_code, 0);
+  good(run_room("whole"));
   EXPECT_EQ(content(file("all/iterations-20000/trials.jsonl")),
             content(file("whole/iterations-20000/trials.jsonl")));
   EXPECT_EQ(without_times(json("all/iterations-20000/summary.json")),
@@ -111,13 +109,12 @@ TEST_F(RunAgain, WhatIsDamagedIsRunAgain) {
     text[line + 50] ^= 1;
   }
   std::ofstream(file_of_journal) << text;
-  const Answer answer = run_room("a", "");
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Answer answer = good(run_room("a", ""));
   EXPECT_THAT(answer.err, AllOf(HasSubstr("stopped: " + std::to_string(before.size() - 2) + " of "),
                                 HasSubstr("warning: " + file_of_journal.string() + ": byte "),
                                 HasSubstr("the line is damaged (its checksum is another one)"),
                                 HasSubstr("the line is damaged (a file of the trial is missing)")));
-  ASSERT_EQ(run_room("whole").exit_code, 0);
+  good(run_room("whole"));
   expect_same_results("whole", "a");
 }
 
@@ -126,9 +123,9 @@ TEST_F(RunAgain, AnInterruptedRunIsGoneOnWith) {
   ASSERT_EQ(json("a/summary.json")["complete"], false);
   const auto before = journal("a");
   ASSERT_GE(before.size(), 2U);
-  ASSERT_EQ(run_room("a").exit_code, 0);
+  good(run_room("a"));
   expect_steps_of(before, "a");
-  ASSERT_EQ(run_room("whole").exit_code, 0);
+  good(run_room("whole"));
   expect_same_results("whole", "a");
   EXPECT_EQ(run_room("a").exit_code, 2) << "what is complete is not run again";
 }
@@ -144,14 +141,13 @@ class RunInterruptedAtOnce : public RunAgain {
         parent / ("." + fs::path(first).filename().string() + ".unfinished/provenance.json");
     std::string words = "--quiet";
     for (const std::string& option : options) words += " " + option;
-    ASSERT_EQ(run_room("whole", words).exit_code, 0);
+    good(run_room("whole", words));
     for (const std::string force : {"", " --force"}) {
       kill_run(
           out, SIGINT, [&] { return fs::exists(begun); }, options);
       ASSERT_EQ(json(first + "/summary.json")["complete"], false);
       ASSERT_EQ(json(first + "/summary.json")["trials"]["count"], 0);
-      const Answer answer = run_room(out, words + force);
-      ASSERT_EQ(answer.exit_code, 0) << answer.err;
+      good(run_room(out, words + force));
       expect_same_results("whole" + first.substr(out.size()), first);
       fs::remove_all(file(out));
     }
@@ -170,11 +166,10 @@ TEST_F(RunInterruptedAtOnce, IsGoneOnWithInVariants) {
 }
 
 TEST_F(RunAgain, AKillBetweenTheSummaryAndTheEndLosesNothing) {
-  ASSERT_EQ(run_room("a").exit_code, 0);
+  good(run_room("a"));
   const std::string steps = content(file("a/steps.jsonl"));
   fs::rename(file("a"), file(".a.unfinished"));
-  const Answer answer = run_room("a", "");
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  good(run_room("a", ""));
   EXPECT_EQ(content(file("a/steps.jsonl")), steps) << "no step was run again";
   EXPECT_FALSE(fs::exists(file(".a.unfinished")));
 }
@@ -182,19 +177,17 @@ TEST_F(RunAgain, AKillBetweenTheSummaryAndTheEndLosesNothing) {
 TEST_F(RunAgain, AnotherRunStartsAfreshAndSaysWhy) {
   const auto three = [&] { return journal(".a.unfinished").size() >= 3; };
   kill_run("a", SIGKILL, three);
-  Answer answer = run_room("a", "--quiet --seed 2");
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  Answer answer = good(run_room("a", "--quiet --seed 2"));
   EXPECT_THAT(answer.err,
               HasSubstr("starts afresh: what an earlier run has left unfinished is dropped, as it "
                         "is of other values (effective.yaml)"));
-  ASSERT_EQ(run_room("two", "--quiet --seed 2").exit_code, 0);
+  good(run_room("two", "--quiet --seed 2"));
   expect_same_results("two", "a");
 
   fs::remove_all(file("a"));
   kill_run("a", SIGKILL, three);
   std::ofstream(file("world.yaml"), std::ios::app) << "# a change\n";
-  answer = run_room("a");
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  answer = good(run_room("a"));
   EXPECT_THAT(answer.err, HasSubstr("as " + file("world.yaml") + " has changed since"));
 }
 
@@ -211,9 +204,9 @@ TEST_F(RunAgain, TwoAtOnceAreRefused) {
 }
 
 TEST_F(RunAgain, AnyNumberOfJobsGivesTheSameResults) {
-  ASSERT_EQ(run_room("one").exit_code, 0);
-  ASSERT_EQ(run_room("three", "--quiet --jobs 3 --threads 2 --set output.maps=all").exit_code, 0);
-  ASSERT_EQ(run_room("all_maps", "--quiet --set output.maps=all").exit_code, 0);
+  good(run_room("one"));
+  good(run_room("three", "--quiet --jobs 3 --threads 2 --set output.maps=all"));
+  good(run_room("all_maps", "--quiet --set output.maps=all"));
   expect_same_results("all_maps", "three");
   EXPECT_EQ(lines("one/steps.jsonl"), lines("three/steps.jsonl"));
 }

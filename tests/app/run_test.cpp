@@ -20,8 +20,7 @@ using testing::Not;
 using RunCommand = Room;
 
 TEST_F(RunCommand, LeavesTheFilesOfTheContract) {
-  const Answer answer = run_room("a", "");
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Answer answer = good(run_room("a", ""));
   EXPECT_THAT(answer.out, HasSubstr("room, seed 1\n"));
   EXPECT_THAT(answer.out, HasSubstr(file("a")));
   for (const char* name :
@@ -55,7 +54,7 @@ double distance_to_walls(const Point& p) {
 }
 
 TEST_F(RunCommand, LeavesTheScanOfEachStepInTheRobotsFrame) {
-  ASSERT_EQ(run_room("a", "--quiet --set output.maps=all").exit_code, 0);
+  good(run_room("a", "--quiet --set output.maps=all"));
   for (const Json& step : json_lines(file("a/steps.jsonl"))) {
     const Json& pose = step["reference"];
     const Transform map_from_robot(Pose2{pose["x"], pose["y"], pose["theta"]});
@@ -91,16 +90,15 @@ TEST_F(RunCommand, SaysWhichMethodAnExperimentWithoutOneIsRunWith) {
   EXPECT_THAT(run("run " + file("bare.yaml") + " --out " + file("bare")).err, HasSubstr(said));
   for (const std::string options :
        {"a --quiet", "b --method indexed", "c --set localizer.matcher=indexed_ransam"}) {
-    const Answer answer = run("run " + file("bare.yaml") + " --out " + file("") + options);
-    EXPECT_EQ(answer.exit_code, 0) << answer.err;
+    const Answer answer = good(run("run " + file("bare.yaml") + " --out " + file("") + options));
     EXPECT_THAT(answer.err, testing::Not(HasSubstr(said))) << options;
   }
 }
 
 TEST_F(RunCommand, OnlyValuesChangeResults) {
   const std::string values = "--quiet --set localizer.matcher.ransam.iterations=15000 --seed ";
-  ASSERT_EQ(run_room("one", values + "3 --threads 1").exit_code, 0);
-  ASSERT_EQ(run_room("two", values + "3 --threads 2").exit_code, 0);
+  good(run_room("one", values + "3 --threads 1"));
+  good(run_room("two", values + "3 --threads 2"));
   expect_same_results("one", "two");
   EXPECT_EQ(json("one/summary.json")["seed"], 3);
   EXPECT_EQ(json("two/provenance.json")["threads"], 2);
@@ -110,8 +108,8 @@ TEST_F(RunCommand, OnlyValuesChangeResults) {
       "--quiet --set localizer.verifier=whole_map --set localizer.matcher=indexed_ransam --set "
       "localizer.matcher.indexed_ransam.exact_search.after_steps=1 --set localizer.looks_per_step=";
   for (const std::string looks : {"1", "10", "1000000000", "0"}) {
-    ASSERT_EQ(run_room("piece" + looks, in_pieces + looks + " --threads 1").exit_code, 0);
-    ASSERT_EQ(run_room("threads" + looks, in_pieces + looks + " --threads 3").exit_code, 0);
+    good(run_room("piece" + looks, in_pieces + looks + " --threads 1"));
+    good(run_room("threads" + looks, in_pieces + looks + " --threads 3"));
     expect_same_results("piece" + looks, "threads" + looks);
   }
   // A run waits for what a step leaves open, so that pieces change nothing but times.
@@ -124,11 +122,10 @@ TEST_F(RunCommand, OnlyValuesChangeResults) {
   EXPECT_TRUE(has_gone_on);
   for (const Json& step : json_lines(file("piece0/steps.jsonl")))
     EXPECT_FALSE(step["stage_ms"].contains("after")) << step;
-  const Answer again = run("run " + file("one/effective.yaml") + " --quiet --out " + file("again"));
-  ASSERT_EQ(again.exit_code, 0) << again.err;
+  good(run("run " + file("one/effective.yaml") + " --quiet --out " + file("again")));
   expect_same_results("one", "again");
   EXPECT_EQ(content(file("one/effective.yaml")), content(file("again/effective.yaml")));
-  ASSERT_EQ(run_room("other", values + "2").exit_code, 0);
+  good(run_room("other", values + "2"));
   EXPECT_NE(lines("one/steps.jsonl"), lines("other/steps.jsonl"));
 }
 
@@ -146,8 +143,7 @@ TEST_F(RunCommand, ABadConfigurationLeavesNoFolder) {
 }
 
 TEST_F(RunCommand, SaysWhatIsWrongWithTheFolderBeforeAnythingIsComputed) {
-  const Answer quiet = run_room("a");
-  EXPECT_EQ(quiet.exit_code, 0);
+  const Answer quiet = good(run_room("a"));
   EXPECT_EQ(quiet.out + quiet.err, "");
   fs::create_directory_symlink("there", file("here"));
   fs::create_directory_symlink("here", file("there"));
@@ -161,23 +157,21 @@ TEST_F(RunCommand, SaysWhatIsWrongWithTheFolderBeforeAnythingIsComputed) {
   const Answer failed = run_room("world.yaml/results");
   EXPECT_EQ(failed.exit_code, 1);
   EXPECT_THAT(failed.err, HasSubstr("cannot write: Not a directory"));
-  EXPECT_EQ(run_room("a", "--quiet --force --seed 9").exit_code, 0);
+  good(run_room("a", "--quiet --force --seed 9"));
   EXPECT_EQ(json("a/summary.json")["seed"], 9);
 }
 
 TEST_F(RunCommand, WritesWhatALinkLeadsTo) {
   fs::create_directory_symlink("missing", file("link"));
   for (const std::string seed : {"1", "2"}) {
-    const Answer answer = run_room("link", "--quiet --force --seed " + seed);
-    ASSERT_EQ(answer.exit_code, 0) << answer.err;
+    good(run_room("link", "--quiet --force --seed " + seed));
     EXPECT_TRUE(fs::is_symlink(file("link")));
     EXPECT_EQ(json("missing/summary.json")["seed"], std::stoi(seed));
   }
   write_experiment("trials: {every_scan: 6, max_steps: 2}\n",
                    "variants: {list: {a: {seed: 3}, b: {seed: 4}}}\n");
   fs::create_directory_symlink("others", file("variants"));
-  const Answer answer = run_room("variants");
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  good(run_room("variants"));
   EXPECT_EQ(json("others/b/summary.json")["seed"], 4);
 }
 
@@ -222,8 +216,7 @@ TEST_F(RunCommand, APerfectlySymmetricWorldIsNeverDeclared) {
                                       "trials: {whole: true}\n"
                                       "localizer: {matcher: indexed_ransam, threshold_policy: fixed, "
                                       "verdict_rule: staged_margin}\n";
-  const Answer answer = run_room("symmetric");
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  good(run_room("symmetric"));
   const std::vector<Json> steps = json_lines(file("symmetric/steps.jsonl"));
   for (const Json& step : steps) {
     EXPECT_EQ(step["verdict"], "ambiguous") << step["step"];

@@ -28,8 +28,7 @@ class RunVariants : public Room {
 
 TEST_F(RunVariants, EachHasAFolderAndALineOfTheTable) {
   write_variants("15000");
-  const Answer answer = run_room("all", "");
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Answer answer = good(run_room("all", ""));
   const Json paper = json("all/paper/summary.json");
   const Json other = json("all/other/summary.json");
   EXPECT_EQ(paper["name"], "room");
@@ -41,7 +40,7 @@ TEST_F(RunVariants, EachHasAFolderAndALineOfTheTable) {
   const std::string effective = content(file("all/other/effective.yaml"));
   EXPECT_THAT(effective, AllOf(HasSubstr("iterations: 15000"), Not(HasSubstr("variants"))));
   // The same as a run of its own.
-  ASSERT_EQ(run("run " + file("all/other/effective.yaml") + " --quiet --out " + file("alone")).exit_code, 0);
+  good(run("run " + file("all/other/effective.yaml") + " --quiet --out " + file("alone")));
   expect_same_results("alone", "all/other");
 }
 
@@ -51,7 +50,7 @@ TEST_F(RunVariants, ResultsSayWhatSettingCaseAndSeedTheyAreOf) {
                    "choose_on: {few: {trials: {every_scan: 9, max_steps: 1}}}\n"
                    "judge_on: {more: {trials: {every_scan: 9, max_steps: 2}}}\n"
                    "variants: {list: {paper: {}, other: {localizer.matcher.ransam.iterations: 15000}}}\n");
-  ASSERT_EQ(run_room("all", "--quiet --only paper_few_seed-4 --only other_more_seed-5").exit_code, 0);
+  good(run_room("all", "--quiet --only paper_few_seed-4 --only other_more_seed-5"));
   EXPECT_EQ(json("all/paper_few_seed-4/provenance.json")["variant"].dump(),
             R"({"setting":"paper","seed":4,"case":"few","role":"choose","values":{}})");
   EXPECT_EQ(json("all/other_more_seed-5/provenance.json")["variant"].dump(),
@@ -64,7 +63,7 @@ TEST_F(RunVariants, ResultsSayWhatSettingCaseAndSeedTheyAreOf) {
 }
 
 TEST_F(RunVariants, OnlyThoseThatAreNamed) {
-  ASSERT_EQ(run_room("all", "--quiet --only other").exit_code, 0);
+  good(run_room("all", "--quiet --only other"));
   EXPECT_TRUE(fs::exists(file("all/other/summary.json")));
   EXPECT_FALSE(fs::exists(file("all/paper")));
   const Answer unknown = run_room("none", "--only papr --only other");
@@ -74,10 +73,9 @@ TEST_F(RunVariants, OnlyThoseThatAreNamed) {
 }
 
 TEST_F(RunVariants, WhatIsFinishedIsKeptIfItIsTheSame) {
-  ASSERT_EQ(run_room("all", "--quiet --only paper").exit_code, 0);
+  good(run_room("all", "--quiet --only paper"));
   const auto written = fs::last_write_time(file("all/paper/summary.json"));
-  const Answer answer = run_room("all", "");
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Answer answer = good(run_room("all", ""));
   EXPECT_THAT(answer.err, AllOf(HasSubstr("paper: kept, as an earlier run has finished it"),
                                 Not(HasSubstr("other: kept"))));
   EXPECT_EQ(fs::last_write_time(file("all/paper/summary.json")), written);
@@ -90,7 +88,7 @@ TEST_F(RunVariants, WhatIsFinishedIsKeptIfItIsTheSame) {
                              ": error: output: the folder has results of another run: it is of other values "
                              "(effective.yaml); choose another folder with --out, or replace earlier results "
                              "with --force\n1 error\n");
-  EXPECT_EQ(run_room("all", "--quiet --force").exit_code, 0);
+  good(run_room("all", "--quiet --force"));
   EXPECT_EQ(fs::last_write_time(file("all/paper/summary.json")), written);
   EXPECT_THAT(content(file("all/other/effective.yaml")), HasSubstr("iterations: 18000"));
 }
@@ -112,26 +110,24 @@ TEST_F(RunVariants, ABadVariantLeavesNothingOfAny) {
 
 TEST_F(RunVariants, AVariantWithAnotherDriveSaysSo) {
   write_experiment("trials: {every_scan: 9, max_steps: 2}\n", "variants: {grid: {seed: [1, 2]}}\n");
-  const Answer answer = run_room("all", "");
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Answer answer = good(run_room("all", ""));
   EXPECT_THAT(answer.err, HasSubstr("seed-2: has a seed, a map, observations or trials of its own"));
   EXPECT_EQ(json("all/seed-2/summary.json")["seed"], 2);
   EXPECT_NE(lines("all/seed-1/steps.jsonl"), lines("all/seed-2/steps.jsonl"));
   // Its drive is its own: the same as if it were run alone.
-  ASSERT_EQ(run_room("alone", "--quiet --seed 2 --set variants={}").exit_code, 0);
+  good(run_room("alone", "--quiet --seed 2 --set variants={}"));
   expect_same_results("alone", "all/seed-2");
 }
 
 TEST_F(RunVariants, ResultsWithoutVariantsAreNotMixedWithThem) {
-  ASSERT_EQ(run_room("all", "--quiet --set variants={}").exit_code, 0);
+  good(run_room("all", "--quiet --set variants={}"));
   const Answer answer = run_room("all", "--force");
   EXPECT_EQ(answer.exit_code, 2);
   EXPECT_THAT(answer.err, HasSubstr("the folder has results of a run without variants"));
 }
 
 TEST_F(RunVariants, AreCheckedWithoutRunningThem) {
-  const Answer answer = run("check " + file("room.yaml"));
-  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  const Answer answer = good(run("check " + file("room.yaml")));
   EXPECT_THAT(answer.out, MatchesRegex(".*: ok, .* trials of each of 2 variants\n"));
 }
 

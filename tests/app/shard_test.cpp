@@ -72,7 +72,7 @@ class Shards : public Room {
   }
 
   void expect_result_of_one_machine() const {
-    ASSERT_EQ(run_room("one").exit_code, 0);
+    good(run_room("one"));
     for (const std::string variant : {"/iterations-10000", "/iterations-20000"}) {
       expect_same_results("one" + variant, "shared" + variant);
       EXPECT_EQ(content(file("one" + variant + "/effective.yaml")),
@@ -93,8 +93,7 @@ class Shards : public Room {
 
 TEST_F(Shards, TogetherLeaveWhatOneMachineLeaves) {
   for (const char* shard : {"2/3", "3/3", "1/3"}) ASSERT_EQ(run_shard(shard).exit_code, 0) << shard;
-  const Answer merged = merge("");
-  ASSERT_EQ(merged.exit_code, 0) << merged.err;
+  const Answer merged = good(merge(""));
   EXPECT_THAT(merged.out, HasSubstr("\niterations-10000 "));
   expect_result_of_one_machine();
   const auto trials = finished();
@@ -104,42 +103,40 @@ TEST_F(Shards, TogetherLeaveWhatOneMachineLeaves) {
 
 TEST_F(Shards, OfAnExperimentWithoutVariants) {
   write_experiment("trials: {every_scan: 2, max_steps: 6}\n");
-  for (const char* shard : {"1/2", "2/2"}) ASSERT_EQ(run_shard(shard, "--quiet --jobs 2").exit_code, 0);
-  ASSERT_EQ(merge().exit_code, 0);
+  for (const char* shard : {"1/2", "2/2"}) good(run_shard(shard, "--quiet --jobs 2"));
+  good(merge());
   ASSERT_EQ(merge().exit_code, 0) << "once more, over what is there";
-  ASSERT_EQ(run_room("one").exit_code, 0);
+  good(run_room("one"));
   expect_same_results("one", "shared");
   EXPECT_FALSE(fs::exists(file("shared/.shards/merged")));
-  EXPECT_EQ(run("summarize " + file("shared")).exit_code, 0);
+  good(run("summarize " + file("shared")));
 }
 
 TEST_F(Shards, OtherNumbersOfShardsDoOnlyWhatIsMissing) {
-  ASSERT_EQ(run_shard("1/4").exit_code, 0);
+  good(run_shard("1/4"));
   const auto first = finished();
   ASSERT_GE(first.size(), 4U);
-  for (const char* shard : {"1/2", "2/2", "1/1"}) ASSERT_EQ(run_shard(shard).exit_code, 0);
+  for (const char* shard : {"1/2", "2/2", "1/1"}) good(run_shard(shard));
   EXPECT_EQ(finished().size(), 22U);
   const std::size_t files = journals().size();
-  const Answer again = run_shard("1/1", "");
-  EXPECT_EQ(again.exit_code, 0);
+  const Answer again = good(run_shard("1/1", ""));
   EXPECT_THAT(again.err, HasSubstr("shard 1/1: 0 of its 22 trials are to be run"));
   EXPECT_EQ(journals().size(), files) << "whoever has nothing to do writes nothing";
-  ASSERT_EQ(merge().exit_code, 0);
+  good(merge());
   expect_result_of_one_machine();
 }
 
 TEST_F(Shards, MoreVariantsAndSeedsAreAddedToWhatIsThere) {
-  ASSERT_EQ(run_shard("1/1").exit_code, 0);
+  good(run_shard("1/1"));
   write_experiment("trials: {every_scan: 2, max_steps: 6}\n",
                    "variants: {grid: {localizer.matcher.ransam.iterations: [10000, 15000, 20000]}}\n");
-  const Answer more = run_shard("1/1", "");
-  ASSERT_EQ(more.exit_code, 0) << more.err;
+  const Answer more = good(run_shard("1/1", ""));
   EXPECT_THAT(more.err, HasSubstr("11 of its 33 trials are to be run"));
-  EXPECT_EQ(merge().exit_code, 0);
+  good(merge());
 }
 
 TEST_F(Shards, WhatIsMissingIsListed) {
-  ASSERT_EQ(run_shard("1/2").exit_code, 0);
+  good(run_shard("1/2"));
   const Answer merged = merge();
   EXPECT_EQ(merged.exit_code, 3);
   EXPECT_THAT(merged.err,
@@ -148,8 +145,8 @@ TEST_F(Shards, WhatIsMissingIsListed) {
   EXPECT_EQ(json("shared/iterations-10000/summary.json")["complete"], false);
   EXPECT_EQ(status()["all"]["missing"], 12);
   EXPECT_EQ(status()["all"]["done"], 10);
-  ASSERT_EQ(run_shard("2/2").exit_code, 0);
-  ASSERT_EQ(merge().exit_code, 0);
+  good(run_shard("2/2"));
+  good(merge());
   expect_result_of_one_machine();
 }
 
@@ -162,9 +159,9 @@ TEST_F(Shards, AnInterruptedOneEndsInGoodOrder) {
   ASSERT_LT(before.size(), 22U);
   for (const fs::path& journal : journals()) EXPECT_EQ(journal.extension(), ".jsonl");
   EXPECT_EQ(status()["live_shards"], 0);
-  ASSERT_EQ(run_shard("1/1").exit_code, 0);
+  good(run_shard("1/1"));
   EXPECT_EQ(finished().size(), 22U);
-  ASSERT_EQ(merge().exit_code, 0);
+  good(merge());
   expect_result_of_one_machine();
 }
 
@@ -185,30 +182,29 @@ TEST_F(Shards, AKilledOneLosesNothingThatWasFinished) {
 
   // Half a line at the end, as a power failure leaves it.
   std::ofstream(journals().front(), std::ios::app) << "0badc0de trial 12";
-  ASSERT_EQ(run_shard("1/1").exit_code, 0);
+  good(run_shard("1/1"));
   const auto after = finished();
   EXPECT_EQ(after.size(), 22U);
   for (const std::string& trial : before) EXPECT_EQ(after.count(trial), 1U) << "run twice";
-  ASSERT_EQ(merge().exit_code, 0);
+  good(merge());
   expect_result_of_one_machine();
 }
 
 TEST_F(Shards, ADamagedLineIsRunAgain) {
-  ASSERT_EQ(run_shard("1/1").exit_code, 0);
+  good(run_shard("1/1"));
   const fs::path journal = journals().front();
   std::string text = content(journal);
   const std::size_t place = text.find("undecided");
   ASSERT_NE(place, std::string::npos);
   text[place] = 'U';
   std::ofstream(journal) << text;
-  const Answer again = run_shard("1/1", "");
-  EXPECT_EQ(again.exit_code, 0);
+  const Answer again = good(run_shard("1/1", ""));
   EXPECT_THAT(again.err, AllOf(HasSubstr("the line is damaged (its checksum is another one)"),
                                HasSubstr("1 of its 22 trials are to be run")));
 }
 
 TEST_F(Shards, AFolderOfAnotherExperimentIsRefused) {
-  ASSERT_EQ(run_shard("1/2").exit_code, 0);
+  good(run_shard("1/2"));
   const auto expect_refused = [&](const std::string& options, const std::string& why) {
     const Answer answer = run_shard("2/2", options);
     EXPECT_EQ(answer.exit_code, 2) << options;
@@ -224,7 +220,7 @@ TEST_F(Shards, AFolderOfAnotherExperimentIsRefused) {
 }
 
 TEST_F(Shards, AChangedInputIsRefused) {
-  ASSERT_EQ(run_shard("1/2").exit_code, 0);
+  good(run_shard("1/2"));
   std::ofstream(file("world.yaml"), std::ios::app) << "# a change\n";
   const Answer answer = run_shard("2/2");
   EXPECT_EQ(answer.exit_code, 2);
@@ -253,17 +249,17 @@ TEST_F(Shards, FaultsOfTheExperimentLeaveNothing) {
 }
 
 TEST_F(Shards, ResultsOfAnotherRunAreNotReplaced) {
-  ASSERT_EQ(run_shard("1/1").exit_code, 0);
-  ASSERT_EQ(run_room("shared", "--quiet --seed 2").exit_code, 0);
+  good(run_shard("1/1"));
+  good(run_room("shared", "--quiet --seed 2"));
   const Answer merged = merge();
   EXPECT_EQ(merged.exit_code, 2);
   EXPECT_THAT(merged.err,
               HasSubstr("iterations-10000: error: output: the folder has results of another run"));
   EXPECT_EQ(json("shared/iterations-10000/summary.json")["seed"], 2);
-  EXPECT_EQ(merge("--quiet --force").exit_code, 0);
+  good(merge("--quiet --force"));
   EXPECT_EQ(json("shared/iterations-10000/summary.json")["seed"], 1);
   write_experiment("trials: {every_scan: 2, max_steps: 6}\n");
-  ASSERT_EQ(run_room("plain").exit_code, 0);
+  good(run_room("plain"));
   EXPECT_EQ(run_room("plain", "--shard 1/1").exit_code, 2) << "results of a run without shards are there";
 }
 
@@ -273,7 +269,7 @@ TEST_F(Shards, AFolderWithoutShardsIsRefused) {
     EXPECT_EQ(answer.exit_code, 2);
     EXPECT_THAT(answer.err, HasSubstr("no shards have run here"));
   }
-  ASSERT_EQ(run_shard("1/2").exit_code, 0);
+  good(run_shard("1/2"));
   std::ofstream(file("shared/.shards/manifest.json")) << "{";
   const Answer answer = run("status " + file("shared"));
   EXPECT_EQ(answer.exit_code, 2);
@@ -288,31 +284,28 @@ TEST_F(Shards, AFullDiskEndsOneShardAndOthersGoOn) {
   EXPECT_THAT(content(file("said")),
               AllOf(HasSubstr("cannot write: File too large"),
                     HasSubstr("finished trials are kept: give the same command again")));
-  ASSERT_EQ(run_shard("2/2").exit_code, 0);
-  ASSERT_EQ(run_shard("1/2").exit_code, 0);
-  ASSERT_EQ(merge().exit_code, 0);
+  good(run_shard("2/2"));
+  good(run_shard("1/2"));
+  good(merge());
   expect_result_of_one_machine();
 }
 
 TEST_F(Shards, AReportShowsWhatIsThereSoFar) {
-  ASSERT_EQ(run_shard("1/2").exit_code, 0);
-  const Answer report = run("report " + file("shared") + " -o " + file("so_far.html"));
-  EXPECT_EQ(report.exit_code, 0) << report.err;
+  good(run_shard("1/2"));
+  const Answer report = good(run("report " + file("shared") + " -o " + file("so_far.html")));
   EXPECT_THAT(report.err, HasSubstr("as far as it is: 10 of 22 trials"));
   EXPECT_THAT(content(file("so_far.html")), HasSubstr("iterations-10000"));
-  const Answer sweep = run("sweep " + file("shared"));
-  EXPECT_EQ(sweep.exit_code, 0) << sweep.err;
+  const Answer sweep = good(run("sweep " + file("shared")));
   EXPECT_THAT(sweep.out, HasSubstr("2 runs without all trials"));
   EXPECT_FALSE(fs::exists(file("shared/iterations-10000"))) << "the folder is left as it is";
-  ASSERT_EQ(run_shard("2/2").exit_code, 0);
-  ASSERT_EQ(merge().exit_code, 0);
+  good(run_shard("2/2"));
+  good(merge());
   EXPECT_EQ(run("report " + file("shared") + " -o " + file("all.html")).err, "");
 }
 
 TEST_F(Shards, WatchedStatusEndsWhenAllIsDone) {
-  ASSERT_EQ(run_shard("1/1").exit_code, 0);
-  const Answer answer = run("status " + file("shared") + " --watch");
-  EXPECT_EQ(answer.exit_code, 0);
+  good(run_shard("1/1"));
+  const Answer answer = good(run("status " + file("shared") + " --watch"));
   EXPECT_THAT(answer.out, HasSubstr("22 of 22 trials done"));
 }
 

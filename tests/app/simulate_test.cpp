@@ -25,12 +25,9 @@ class SimulateCommand : public CommandLine {
 };
 
 TEST_F(SimulateCommand, WhatItWritesRunsLikeTheSimulation) {
-  Answer answer = run("simulate " + file("experiment.yaml") + " --seed 5 --out " + file("recorded"));
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
-  answer = run("run " + file("experiment.yaml") + " --seed 5 --quiet --out " + file("a"));
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
-  answer = run("run " + file("recorded/experiment.yaml") + " --quiet --out " + file("b"));
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  Answer answer = good(run("simulate " + file("experiment.yaml") + " --seed 5 --out " + file("recorded")));
+  answer = good(run("run " + file("experiment.yaml") + " --seed 5 --quiet --out " + file("a")));
+  answer = good(run("run " + file("recorded/experiment.yaml") + " --quiet --out " + file("b")));
   const auto a = nlohmann::json::parse(content(file("a/summary.json")));
   const auto b = nlohmann::json::parse(content(file("b/summary.json")));
   EXPECT_EQ(a["seed"], b["seed"]);
@@ -45,8 +42,7 @@ TEST_F(SimulateCommand, WhatItWritesRunsLikeTheSimulation) {
 }
 
 TEST_F(SimulateCommand, WritesADriveInAMap) {
-  Answer answer = run("simulate " + file("experiment.yaml") + " --out " + file("mapped"));
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  Answer answer = good(run("simulate " + file("experiment.yaml") + " --out " + file("mapped")));
   std::ofstream(file("tour.yaml")) << "schema: 1\n"
                                       "name: tour\n"
                                       "map: {ros_map: {path: mapped/map.yaml}}\n"
@@ -59,12 +55,9 @@ TEST_F(SimulateCommand, WritesADriveInAMap) {
                                       "    kidnappings: [{after_m: 5, to: [1, 1]}]\n"
                                       "trials: {whole: true}\n"
                                       "localizer: {matcher: {ransam: {iterations: 5000}}}\n";
-  answer = run("simulate " + file("tour.yaml") + " --seed 5 --out " + file("recorded"));
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
-  answer = run("run " + file("tour.yaml") + " --seed 5 --quiet --out " + file("a"));
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
-  answer = run("run " + file("recorded/experiment.yaml") + " --quiet --out " + file("b"));
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  answer = good(run("simulate " + file("tour.yaml") + " --seed 5 --out " + file("recorded")));
+  answer = good(run("run " + file("tour.yaml") + " --seed 5 --quiet --out " + file("a")));
+  answer = good(run("run " + file("recorded/experiment.yaml") + " --quiet --out " + file("b")));
   EXPECT_EQ(content(file("recorded/map.pgm")), content(file("mapped/map.pgm")));
   const auto poses = [&](const std::string& results) {
     const std::string text = content(file(results + "/trajectories/trial_0000_reference.tum"));
@@ -77,9 +70,9 @@ TEST_F(SimulateCommand, WritesADriveInAMap) {
 
 TEST_F(SimulateCommand, TheSameSeedGivesTheSameBytes) {
   for (const char* out : {"a", "b"}) {
-    ASSERT_EQ(run("simulate " + file("experiment.yaml") + " --seed 5 --out " + file(out)).exit_code, 0);
+    good(run("simulate " + file("experiment.yaml") + " --seed 5 --out " + file(out)));
   }
-  ASSERT_EQ(run("simulate " + file("experiment.yaml") + " --seed 6 --out " + file("c")).exit_code, 0);
+  good(run("simulate " + file("experiment.yaml") + " --seed 6 --out " + file("c")));
   for (const char* name : {"/drive.log", "/map.yaml", "/map.pgm", "/experiment.yaml"}) {
     EXPECT_EQ(content(file("a") + name), content(file("b") + name));
   }
@@ -87,7 +80,7 @@ TEST_F(SimulateCommand, TheSameSeedGivesTheSameBytes) {
 }
 
 TEST_F(SimulateCommand, RefusesARecordedDriveAndAFullFolder) {
-  ASSERT_EQ(run("simulate " + file("experiment.yaml") + " --out " + file("a")).exit_code, 0);
+  good(run("simulate " + file("experiment.yaml") + " --out " + file("a")));
   const Answer recorded = run("simulate " + file("a/experiment.yaml") + " --out " + file("b"));
   EXPECT_EQ(recorded.exit_code, 2);
   EXPECT_THAT(
@@ -97,25 +90,22 @@ TEST_F(SimulateCommand, RefusesARecordedDriveAndAFullFolder) {
   const Answer full = run("simulate " + file("experiment.yaml") + " --out " + file("a"));
   EXPECT_EQ(full.exit_code, 2);
   EXPECT_THAT(full.err, HasSubstr("the folder exists and is not empty"));
-  EXPECT_EQ(run("simulate " + file("experiment.yaml") + " --force --out " + file("a")).exit_code, 0);
+  good(run("simulate " + file("experiment.yaml") + " --force --out " + file("a")));
   const Answer both = run("simulate " + file("a/experiment.yaml") + " --out " + file("a"));
   EXPECT_THAT(both.err, HasSubstr("the folder exists and is not empty")) << "before the drive is looked at";
 }
 
 TEST_F(SimulateCommand, WritesWhatALinkLeadsTo) {
   std::filesystem::create_directory_symlink("missing", file("link"));
-  const Answer answer = run("simulate " + file("experiment.yaml") + " --out " + file("link"));
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  good(run("simulate " + file("experiment.yaml") + " --out " + file("link")));
   EXPECT_NE(content(file("missing/drive.log")), "");
 }
 
 TEST_F(SimulateCommand, ASiteCanBeRunAndLocalizedIn) {
   const std::string simulate = "simulate --site office --side 30 --length 60 --starts 6 --seed 3";
-  Answer answer = run(simulate + " --out " + file("site"));
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  Answer answer = good(run(simulate + " --out " + file("site")));
   EXPECT_THAT(answer.out, HasSubstr("a map of 601 x 601 cells"));
-  answer = run("run " + file("site/experiment.yaml") + " --quiet --out " + file("results"));
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  answer = good(run("run " + file("site/experiment.yaml") + " --quiet --out " + file("results")));
   const auto summary = nlohmann::json::parse(content(file("results/summary.json")));
   EXPECT_EQ(summary["name"], "office_30_3");
   EXPECT_GE(summary["trials"]["count"], 4) << "the last starts have less than 41 scans left";
@@ -125,9 +115,9 @@ TEST_F(SimulateCommand, ASiteCanBeRunAndLocalizedIn) {
 
 TEST_F(SimulateCommand, TheSameSeedGivesTheSameSite) {
   const std::string simulate = "simulate --site office --side 25 --length 20 --resolution 0.1 ";
-  ASSERT_EQ(run(simulate + "--seed 5 --out " + file("a")).exit_code, 0);
-  ASSERT_EQ(run(simulate + "--seed 5 --out " + file("b")).exit_code, 0);
-  ASSERT_EQ(run(simulate + "--seed 6 --out " + file("c")).exit_code, 0);
+  good(run(simulate + "--seed 5 --out " + file("a")));
+  good(run(simulate + "--seed 5 --out " + file("b")));
+  good(run(simulate + "--seed 6 --out " + file("c")));
   for (const char* name : {"/drive.log", "/map.yaml", "/map.pgm", "/experiment.yaml"}) {
     EXPECT_EQ(content(file("a") + name), content(file("b") + name)) << name;
     EXPECT_NE(content(file("a") + name), "") << name;

@@ -61,9 +61,8 @@ class Submit : public Room {
 };
 
 TEST_F(Submit, QueuesAnArrayAndThenTheMerge) {
-  const Answer answer = submit(
-      "--slurm --shards 8 --limit 2 --time 10 --sbatch-option --partition=short --sbatch-option=--mem=1G");
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Answer answer = good(submit(
+      "--slurm --shards 8 --limit 2 --time 10 --sbatch-option --partition=short --sbatch-option=--mem=1G"));
   const std::string folder = file("results/.shards/");
   EXPECT_THAT(calls(), HasSubstr("sbatch --parsable " + folder + "array.sbatch\n" +
                                  "sbatch --parsable --dependency=afterany:41 " + folder + "merge.sbatch\n"));
@@ -81,38 +80,36 @@ TEST_F(Submit, QueuesAnArrayAndThenTheMerge) {
 TEST_F(Submit, DryRunNeedsNoSlurm) {
   for (const char* name : {"scontrol", "squeue", "sbatch", "scancel"}) remove(name);
   write_experiment("trials: {every_scan: 2, max_steps: 6}\n", "seeds: 1..100\n");
-  const Answer answer = submit("--slurm --shards 1100 --dry-run");
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Answer answer = good(submit("--slurm --shards 1100 --dry-run"));
   EXPECT_THAT(answer.out, AllOf(HasSubstr(script("array.sbatch")), HasSubstr(script("merge.sbatch")),
                                 HasSubstr("Nothing is queued.")));
   EXPECT_THAT(script("array.sbatch"), HasSubstr("--array=1-550\n"));
 }
 
 TEST_F(Submit, DryRunQueuesNothing) {
-  ASSERT_EQ(submit("--slurm --dry-run").exit_code, 0);
+  good(submit("--slurm --dry-run"));
   EXPECT_EQ(calls(), "scontrol show config\n");
 }
 
 TEST_F(Submit, TasksTakeSeveralShardsWhereArraysAreShort) {
   // Indices up to 5: with two shards for each task four will do.
   pretend("scontrol", "echo; echo 'MaxArraySize            = 6'");
-  const Answer answer = submit("--slurm --shards 8");
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Answer answer = good(submit("--slurm --shards 8"));
   EXPECT_THAT(script("array.sbatch"), AllOf(HasSubstr("--array=1-4\n"), HasSubstr("shard <= 8; shard += 4")));
   EXPECT_THAT(answer.out, HasSubstr("at most 5 tasks in an array: 4 of them run 8 shards"));
-  ASSERT_EQ(submit("--slurm --shards 5").exit_code, 0);
+  good(submit("--slurm --shards 5"));
   EXPECT_THAT(script("array.sbatch"), AllOf(HasSubstr("--array=1-5\n"), Not(HasSubstr("shard +="))));
 }
 
 TEST_F(Submit, ATaskAsksForTheCoresThatItKeepsBusy) {
   write_experiment("trials: {every_scan: 6, max_steps: 5}\n",
                    "variants: {list: {one: {}, three: {threads: 3}}}\n");
-  ASSERT_EQ(submit("--slurm --dry-run --jobs 2").exit_code, 0);
+  good(submit("--slurm --dry-run --jobs 2"));
   EXPECT_THAT(script("array.sbatch"), AllOf(HasSubstr("--cpus-per-task=6\n"), HasSubstr(" --jobs 2\n")));
 }
 
 TEST_F(Submit, ThereAreNoMoreShardsThanTrials) {
-  ASSERT_EQ(submit("--slurm --dry-run").exit_code, 0);
+  good(submit("--slurm --dry-run"));
   EXPECT_THAT(script("array.sbatch"), HasSubstr("--array=1-11\n"));
 }
 
@@ -200,10 +197,9 @@ TEST_F(Submit, TellsWhereThereIsNoGnuParallel) {
 TEST_F(Submit, GnuParallelRunsAllShardsAndMerges) {
   pretend("parallel",
           "[ $1 = --version ] && echo GNU parallel 20221122 || while read -r n; do sh shard.sh $n; done");
-  const Answer answer = submit("--parallel --shards 3 --seed 5");
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  good(submit("--parallel --shards 3 --seed 5"));
   EXPECT_THAT(calls(), HasSubstr("parallel --joblog joblog --resume-failed sh shard.sh {}\n"));
-  ASSERT_EQ(run_room("one", "--quiet --seed 5").exit_code, 0);
+  good(run_room("one", "--quiet --seed 5"));
   expect_same_results("one", "results");
 }
 
@@ -231,10 +227,9 @@ TEST_F(Submit, GnuParallelRunsWhatAnExperimentHasGotSince) {
           "shard.sh 2; }; "
           ">joblog");
   write_experiment("trials: {every_scan: 2, max_steps: 6}\n", "seeds: [1]\n");
-  ASSERT_EQ(submit("--parallel --shards 2").exit_code, 0);
+  good(submit("--parallel --shards 2"));
   write_experiment("trials: {every_scan: 2, max_steps: 6}\n", "seeds: [1, 2]\n");
-  const Answer answer = submit("--parallel --shards 2");
-  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  good(submit("--parallel --shards 2"));
   EXPECT_TRUE(fs::exists(file("results/seed-2/summary.json")));
 }
 

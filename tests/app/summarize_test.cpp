@@ -32,7 +32,7 @@ class SummarizeCommand : public Room {
  protected:
   /// a: right after 2 steps and after 1, one wrong, one failed. b: right after 1 step, one undecided.
   SummarizeCommand() {
-    EXPECT_EQ(run_room("runs/a").exit_code, 0);
+    good(run_room("runs/a"));
     fs::copy(file("runs/a"), file("runs/b"), fs::copy_options::recursive);
     replace_lines(file("runs/a"),
                   {right(2, 1.0, 0.02, 0.2),
@@ -45,15 +45,13 @@ class SummarizeCommand : public Room {
   }
 
   [[nodiscard]] Json summary(const std::string& arguments) const {
-    const Answer answer = run("summarize --json " + arguments);
-    EXPECT_EQ(answer.exit_code, 0) << answer.err;
+    const Answer answer = good(run("summarize --json " + arguments));
     return Json::parse(answer.out);
   }
 };
 
 TEST_F(SummarizeCommand, HasARowForEachFolder) {
-  const Answer answer = run("summarize " + file("runs"));
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Answer answer = good(run("summarize " + file("runs")));
   EXPECT_EQ(answer.err, "");
   // Wilson, 95 %: 1 of 4 is 4.6 to 69.9 %, 0 of 2 is 0 to 65.8 %.
   EXPECT_EQ(
@@ -67,8 +65,7 @@ TEST_F(SummarizeCommand, HasARowForEachFolder) {
 
 TEST_F(SummarizeCommand, PoolsTrialsNotMedians) {
   const Answer answer =
-      run("summarize --pool --no-head --name both " + file("runs/a") + " " + file("runs/b"));
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+      good(run("summarize --pool --no-head --name both " + file("runs/a") + " " + file("runs/b")));
   // Of 1, 3 and 9 m; 2, 4 and 30 cm; 10, 20, 30, 40, 60 and 70 ms. 1 of 6 wrong.
   EXPECT_EQ(
       answer.out,
@@ -95,7 +92,7 @@ TEST_F(SummarizeCommand, LooksAtSomeStepsOnly) {
 
 TEST_F(SummarizeCommand, SaysWhatTheRunItselfSays) {
   write_experiment("trials: {every_scan: 2, max_steps: 8}\n", "output: {maps: none}\n");
-  ASSERT_EQ(run_room("c").exit_code, 0);
+  good(run_room("c"));
   const Json own = json("c/summary.json");
   ASSERT_GT(own["trials"]["right"], 0);
   const Json told = summary(file("c"))[0];
@@ -116,7 +113,7 @@ TEST_F(SummarizeCommand, SaysWhatTheRunItselfSays) {
 
 TEST_F(SummarizeCommand, LeavesOutWhatIsNotKnown) {
   // Nothing is declared in a single step.
-  ASSERT_EQ(run_room("none", "--quiet --set output.steps=false --set trials.max_steps=1").exit_code, 0);
+  good(run_room("none", "--quiet --set output.steps=false --set trials.max_steps=1"));
   const Answer answer = run("summarize --no-head " + file("none"));
   EXPECT_THAT(answer.out, AllOf(StartsWith("| none |"), EndsWith("| – | – | – |\n")));
   const Json row = summary(file("none"))[0];

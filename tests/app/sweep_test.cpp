@@ -33,7 +33,7 @@ class SweepCommand : public Room {
                      "judge_on: {far: {trials: {every_scan: 8, max_steps: 1}}}\n"
                      "seeds: 1..2\n"
                      "output: {steps: false, maps: none}\n");
-    EXPECT_EQ(run_room("all").exit_code, 0);
+    good(run_room("all"));
   }
 
   /// Puts these outcomes in place of those of all seeds of a setting.
@@ -54,8 +54,7 @@ class SweepCommand : public Room {
 
 TEST_F(SweepCommand, TellsWhatIsBestAndWhyAndWhatToReport) {
   set_all_outcomes();
-  const Answer answer = run("sweep " + file("all"));
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Answer answer = good(run("sweep " + file("all")));
   EXPECT_EQ(answer.err, "");
   EXPECT_THAT(answer.out, HasSubstr("room: 16 runs, 4 settings, 2 seeds, 2 cases\n"));
   // Twice 3 of 4 right, twice the same: Wilson's interval of 3 of 4.
@@ -79,8 +78,7 @@ TEST_F(SweepCommand, TellsWhatIsBestAndWhyAndWhatToReport) {
 
 TEST_F(SweepCommand, HasAllNumbersAsJson) {
   set_all_outcomes();
-  const Answer answer = run("sweep " + file("all") + " --json --map min_side iterations");
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Answer answer = good(run("sweep " + file("all") + " --json --map min_side iterations"));
   const Json json = Json::parse(answer.out);
   EXPECT_EQ(json["settings"][0]["setting"], "iterations-200_min_side-0.5");
   EXPECT_EQ(json["settings"][0]["values"]["localizer.matcher.ransam.iterations"], "200");
@@ -98,8 +96,7 @@ TEST_F(SweepCommand, HasAllNumbersAsJson) {
 TEST_F(SweepCommand, MarksWhatIsIncomplete) {
   set_all_outcomes();
   fs::remove_all(file("all/iterations-200_min_side-0.5_near_seed-2"));
-  const Answer answer = run("sweep " + file("all") + " --top 1");
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Answer answer = good(run("sweep " + file("all") + " --top 1"));
   EXPECT_THAT(answer.out, AllOf(HasSubstr("1 setting without all cases, seeds or trials, marked with *"),
                                 HasSubstr("\n  3 settings more; --top 4 shows all.\n")));
   EXPECT_THAT(run("sweep " + file("all")).out, HasSubstr("  iterations-200_min_side-0.5 * "));
@@ -107,7 +104,7 @@ TEST_F(SweepCommand, MarksWhatIsIncomplete) {
 
 TEST_F(SweepCommand, SaysWhatToDoWithOtherFolders) {
   write_experiment("trials: {every_scan: 9, max_steps: 1}\n");
-  ASSERT_EQ(run_room("alone").exit_code, 0);
+  good(run_room("alone"));
   const Answer alone = run("sweep " + file("alone"));
   EXPECT_EQ(alone.exit_code, 2);
   EXPECT_EQ(alone.err,

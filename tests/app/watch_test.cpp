@@ -150,7 +150,7 @@ TEST_F(WatchedRun, IsShownWhileItGoesOnAndToTheEnd) {
 }
 
 TEST_F(WatchedRun, HasTheResultsOfOneThatIsNot) {
-  ASSERT_EQ(run_room("alone", std::string("--quiet ") + slow).exit_code, 0);
+  good(run_room("alone", std::string("--quiet ") + slow));
   start(std::string(slow) + " --jobs 2");
   data_with([](const Json& data) { return data["live"]["trials_done"] >= 1; });
   ASSERT_EQ(exit_code(), 0);

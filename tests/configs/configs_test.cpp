@@ -71,8 +71,7 @@ TEST_P(Experiments, OpenWithWhatTheyShow) {
 TEST_P(Experiments, PassTheCheck) {
   const std::string file = path_of("experiments", GetParam());
   if (const std::string why = why_not_here(text_with_parts(file)); !why.empty()) GTEST_SKIP() << why;
-  const Answer answer = run("check " + file);
-  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  const Answer answer = good(run("check " + file));
   EXPECT_THAT(answer.out, testing::HasSubstr(": ok, "));
 }
 
@@ -91,8 +90,7 @@ TEST_P(Methods, PassTheCheckWithACase) {
   const std::string one_case = is_in_space(text) ? "building_single" : "paper_simulation";
   const std::string why = why_not_here(text + content(path_of("cases", one_case)));
   if (!why.empty()) GTEST_SKIP() << why;
-  const Answer answer = run("check --method " + GetParam() + " --case " + one_case);
-  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  good(run("check --method " + GetParam() + " --case " + one_case));
 }
 
 INSTANTIATE_TEST_SUITE_P(Configs, Methods, testing::ValuesIn(names_in("methods")), name_of);
@@ -103,9 +101,8 @@ TEST_P(Cases, PassTheCheckWithAMethod) {
   const std::string text = text_with_parts(path_of("cases", GetParam()));
   EXPECT_THAT(text, testing::StartsWith("# "));
   if (const std::string why = why_not_here(text); !why.empty()) GTEST_SKIP() << why;
-  const Answer answer = run("check --method " + std::string(is_in_space(text) ? "lidar_free" : "indexed") +
-                            " --case " + GetParam());
-  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  good(run("check --method " + std::string(is_in_space(text) ? "lidar_free" : "indexed") + " --case " +
+           GetParam()));
 }
 
 INSTANTIATE_TEST_SUITE_P(Configs, Cases, testing::ValuesIn(names_in("cases")), name_of);

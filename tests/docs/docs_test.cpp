@@ -398,8 +398,7 @@ TEST_F(DocsExamples, TablesAreWhatTheirCommandsPrint) {
          at = text.find(begin, at + 1), ++tables) {
       const std::size_t command = at + begin.size();
       const std::size_t table = text.find(mid, command) + mid.size();
-      const Answer answer = run(text.substr(command, table - mid.size() - command));
-      EXPECT_EQ(answer.exit_code, 0) << answer.err;
+      const Answer answer = good(run(text.substr(command, table - mid.size() - command)));
       EXPECT_EQ(text.substr(table, text.find(end, table) - table), answer.out)
           << document << ": scripts/tables writes it anew";
     }
@@ -531,9 +530,8 @@ void expect_described(const std::set<std::string>& names, const fs::path& docume
 TEST_F(DocsExamples, WhatARunLeavesIsDescribed) {
   const fs::path document = root / "docs/file-formats.md";
   save_examples(document);
-  const Answer answer =
-      run("run configs/experiments/room.yaml --quiet --out a --set localizer.matcher.ransam.iterations=5000");
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  good(run(
+      "run configs/experiments/room.yaml --quiet --out a --set localizer.matcher.ransam.iterations=5000"));
   std::set<std::string> names;
   for (const auto& entry : fs::directory_iterator("a")) names.insert(entry.path().filename());
   collect_keys(nlohmann::json::parse(read("a/summary.json")), names);
@@ -551,15 +549,12 @@ TEST_F(DocsExamples, WhatCompareWritesIsDescribed) {
   const fs::path document = root / "docs/file-formats.md";
   save_examples(document);
   for (const char* folder : {"a", "b"}) {
-    const Answer answer =
-        run(std::string("run configs/experiments/room.yaml --quiet --set trials.every_scan=5 --set "
-                        "trials.whole=false --set trials.max_steps=4 --set "
-                        "localizer.matcher.ransam.iterations=5000 --out ") +
-            folder);
-    ASSERT_EQ(answer.exit_code, 0) << answer.err;
+    good(run(std::string("run configs/experiments/room.yaml --quiet --set trials.every_scan=5 --set "
+                         "trials.whole=false --set trials.max_steps=4 --set "
+                         "localizer.matcher.ransam.iterations=5000 --out ") +
+             folder));
   }
-  const Answer answer = run("compare a b -o c.json -o c.csv");
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  good(run("compare a b -o c.json -o c.csv"));
   std::set<std::string> names;
   collect_keys(nlohmann::json::parse(read("c.json")), names);
   std::istringstream columns(lines_of(read("c.csv")).front());
@@ -571,16 +566,14 @@ TEST_F(DocsExamples, WhatCompareWritesIsDescribed) {
 TEST_F(DocsExamples, WhatSweepWritesIsDescribed) {
   const fs::path document = root / "docs/file-formats.md";
   save_examples(document);
-  const Answer ran = run(
+  good(run(
       "run configs/experiments/room.yaml --quiet --out a --set trials.max_steps=1 --set trials.whole=false "
       "--set "
       "trials.every_scan=9 --set output.steps=false --set 'choose_on={near: {}}' --set 'judge_on={far: {}}' "
       "--set "
       "'variants.grid={localizer.matcher.ransam.iterations: [100, 20000], localizer.contact_epsilon: [0.1, "
-      "0.2]}'");
-  ASSERT_EQ(ran.exit_code, 0) << ran.err;
-  const Answer answer = run("sweep a --json");
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+      "0.2]}'"));
+  const Answer answer = good(run("sweep a --json"));
   nlohmann::json json = nlohmann::json::parse(answer.out);
   ASSERT_TRUE(json.contains("chance"));
   for (nlohmann::json& setting : json["settings"]) setting["values"].clear();
@@ -620,8 +613,7 @@ TEST_F(DocsExamples, NumbersToExpectAreThoseOfRuns) {
     const std::string run_options = row[1];
     if (needs_data_sets(run_options) && !has_data_sets()) continue;
     fs::remove_all("numbers");
-    const Answer answer = run("run " + run_options + " --quiet --out numbers --set output.maps=none");
-    ASSERT_EQ(answer.exit_code, 0) << answer.err;
+    good(run("run " + run_options + " --quiet --out numbers --set output.maps=none"));
     fs::path results;
     for (const auto& entry : fs::directory_iterator("numbers")) {
       if (entry.is_directory()) results = entry.path();

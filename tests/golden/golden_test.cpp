@@ -27,9 +27,8 @@ class Golden : public CommandLine, public testing::WithParamInterface<GoldenRun>
   /// What the run comes to: of a single trial with its steps, else of each.
   [[nodiscard]] Json result() const {
     const std::string out = folder_.path() / "results";
-    const Answer answer = run("run " GLOCAL_SOURCE_DIR "/configs/experiments/" + GetParam().experiment +
-                              ".yaml --quiet --out " + out + " " + GetParam().options);
-    EXPECT_EQ(answer.exit_code, 0) << answer.err;
+    good(run("run " GLOCAL_SOURCE_DIR "/configs/experiments/" + GetParam().experiment +
+             ".yaml --quiet --out " + out + " " + GetParam().options));
     std::vector<Json> trials;
     std::ifstream lines(out + "/trials.jsonl");
     for (std::string line; std::getline(lines, line);) trials.push_back(Json::parse(line));

@@ -51,8 +51,7 @@ class PluginCommand : public CommandLine {
 };
 
 TEST_F(PluginCommand, StrategiesOfEveryKindAreListedAndDescribed) {
-  const Answer list = run("list --plugin " + plugin("every_kind"));
-  ASSERT_EQ(list.exit_code, 0) << list.err;
+  const Answer list = good(run("list --plugin " + plugin("every_kind")));
   for (const char* name : {"room", "standing", "last_scan", "oracle", "each_alone", "all_alike",
                            "always_half", "at_once", "ahead", "mute"}) {
     EXPECT_THAT(list.out, HasSubstr(name));
@@ -82,9 +81,8 @@ TEST_F(PluginCommand, FoldersOfPluginsComeFromTheEnvironment) {
 TEST_F(PluginCommand, AnExperimentNamesItsPluginsAndRecordsThem) {
   fs::copy(plugin("every_kind"), file("mine.so"));
   write_experiment("plugins: [mine.so]\n");
-  EXPECT_EQ(run("check " + file("e.yaml")).exit_code, 0);
-  const Answer answer = run("run " + file("e.yaml") + " --quiet --out " + file("results"));
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  good(run("check " + file("e.yaml")));
+  good(run("run " + file("e.yaml") + " --quiet --out " + file("results")));
   EXPECT_EQ(Json::parse(content(file("results/summary.json")))["trials"]["right"], 4);
   const Json provenance = Json::parse(content(file("results/provenance.json")));
   EXPECT_EQ(provenance["plugins"], Json({"every_kind 1.2.3"}));
@@ -93,11 +91,8 @@ TEST_F(PluginCommand, AnExperimentNamesItsPluginsAndRecordsThem) {
 
 TEST_F(PluginCommand, TheEffectiveExperimentRunsWithoutTheOption) {
   write_experiment("");
-  const Answer first =
-      run("run " + file("e.yaml") + " --quiet --out " + file("a") + " --plugin " + plugin("every_kind"));
-  ASSERT_EQ(first.exit_code, 0) << first.err;
-  const Answer again = run("run " + file("a/effective.yaml") + " --quiet --out " + file("b"));
-  ASSERT_EQ(again.exit_code, 0) << again.err;
+  good(run("run " + file("e.yaml") + " --quiet --out " + file("a") + " --plugin " + plugin("every_kind")));
+  good(run("run " + file("a/effective.yaml") + " --quiet --out " + file("b")));
   EXPECT_EQ(content(file("a/trials.jsonl")), content(file("b/trials.jsonl")));
 }
 
@@ -118,8 +113,7 @@ TEST_F(PluginCommand, AMissingPluginOfAnExperimentIsAFaultOfItsFile) {
 }
 
 TEST_F(PluginCommand, NamedTwiceItIsLoadedOnce) {
-  const Answer answer = run("list --plugin " + plugin("every_kind") + " --plugin " + plugin("every_kind"));
-  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  good(run("list --plugin " + plugin("every_kind") + " --plugin " + plugin("every_kind")));
 }
 
 TEST_F(PluginCommand, AnExceptionInAStepEndsOnlyItsTrial) {
@@ -225,7 +219,7 @@ TEST_F(CrashingShard, ATrialThatCrashesTwiceIsARowAndTakesNoOthersWithIt) {
     const Answer status = run("status " + file("shared") + " --json");
     EXPECT_EQ(Json::parse(status.out)["all"]["failed"], 1);
     EXPECT_EQ(run("merge --force --quiet " + file("shared")).exit_code, 1);
-    EXPECT_EQ(run("summarize " + file("shared")).exit_code, 0);
+    good(run("summarize " + file("shared")));
     EXPECT_EQ(run_shard("how: crash, stamp: 5").exit_code, 1) << "it stays failed";
     EXPECT_THAT(run_shard("how: crash, stamp: 5").err, Not(HasSubstr("crashed"))) << "and is not run again";
   }
@@ -241,8 +235,7 @@ TEST_F(CrashingShard, ATrialThatEndsTheProgramHasCrashed) {
 }
 
 TEST_F(CrashingShard, ATrialThatCrashesOnceIsNot) {
-  const Answer answer = run_shard("how: abort, stamp: 10, once: " + file("mark"));
-  EXPECT_EQ(answer.exit_code, 0);
+  const Answer answer = good(run_shard("how: abort, stamp: 10, once: " + file("mark")));
   EXPECT_THAT(answer.err, HasSubstr("trial 2 has crashed (SIGABRT); it is tried once more, alone"));
   const auto trials = merged_trials();
   ASSERT_EQ(trials.size(), 4U);
@@ -274,20 +267,17 @@ TEST_F(PluginCommand, ASecondInterruptEndsAStepThatHangs) {
 
 TEST_F(PluginCommand, ResultsBringNoCodeAlong) {
   write_experiment("plugins: [" + plugin("every_kind") + "]\n");
-  ASSERT_EQ(run("run " + file("e.yaml") + " --quiet --out " + file("a")).exit_code, 0);
+  good(run("run " + file("e.yaml") + " --quiet --out " + file("a")));
   const std::string explain = "explain " + file("a") + " --trial 0 --step 0";
   const Answer refused = run(explain);
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err,
               AllOf(HasSubstr("a/effective.yaml: error: needs the plugin "), HasSubstr("every_kind.so"),
                     HasSubstr("--plugin "), HasSubstr("--trust-plugins")));
-  const Answer named = run(explain + " --plugin " + plugin("every_kind"));
-  EXPECT_EQ(named.exit_code, 0) << named.err;
-  const Answer trusted = run(explain + " --trust-plugins");
-  EXPECT_EQ(trusted.exit_code, 0) << trusted.err;
+  const Answer named = good(run(explain + " --plugin " + plugin("every_kind")));
+  const Answer trusted = good(run(explain + " --trust-plugins"));
   EXPECT_EQ(named.out, trusted.out);
-  const Answer reliability = run("reliability " + file("a"));
-  EXPECT_EQ(reliability.exit_code, 0) << reliability.err;
+  good(run("reliability " + file("a")));
 }
 
 TEST_F(PluginCommand, WhatIsNoPluginIsRefused) {

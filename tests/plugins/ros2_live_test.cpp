@@ -80,9 +80,8 @@ TEST_F(LiveRoom, TheRobotIsToldWhatLocalizeFindsOnTheRecording) {
   EXPECT_THAT(told, HasSubstr("localized"));
   EXPECT_TRUE(poses->receive(milliseconds(1000)));
 
-  const Answer answer = run("localize " + file("room/map.yaml") + " " + file("live.mcap") +
-                            " --scans /scan --whole --out " + file("again"));
-  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  good(run("localize " + file("room/map.yaml") + " " + file("live.mcap") + " --scans /scan --whole --out " +
+           file("again")));
   const std::vector<Json> live = json_lines(file("live.steps.jsonl"));
   const std::vector<Json> again = json_lines(file("again/steps.jsonl"));
   ASSERT_EQ(live.size(), again.size());
