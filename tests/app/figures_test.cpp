@@ -98,9 +98,8 @@ TEST_F(Figures, WritesIntoNoForeignFolderUnlessForced) {
   run_whole("a");
   fs::create_directory(file("thesis"));
   std::ofstream(file("thesis/fig3.pdf")) << "unfinished\n";
-  const Answer refused = figures("a", "thesis", pretended_python());
-  EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_THAT(refused.err, HasSubstr("thesis: error: holds other files, and no figures.py"));
+  EXPECT_THAT(refusal(figures("a", "thesis", pretended_python())),
+              HasSubstr("thesis: error: holds other files, and no figures.py"));
   EXPECT_FALSE(fs::exists(file("thesis/figures.py")));
   good(figures("a", "thesis", "--force" + pretended_python()));
   EXPECT_TRUE(fs::exists(file("thesis/figures.py")));
@@ -142,9 +141,8 @@ TEST_F(Figures, ReportsTheFaultsOfAllFolders) {
 
 TEST_F(Figures, RefusesATrialThatIsNotThere) {
   run_whole("a");
-  const Answer answer = figures("a", "b", "--trial 1" + pretended_python());
-  EXPECT_EQ(answer.exit_code, 2);
-  EXPECT_THAT(answer.err, HasSubstr("a/trials.jsonl: error: has no trial 1; choose one from 0 to 0"));
+  EXPECT_THAT(refusal(figures("a", "b", "--trial 1" + pretended_python())),
+              HasSubstr("a/trials.jsonl: error: has no trial 1; choose one from 0 to 0"));
   EXPECT_EQ(figures("a", "b", "--trial -1" + pretended_python()).exit_code, 2);
   EXPECT_FALSE(fs::exists(file("b")));
 }
@@ -163,13 +161,10 @@ TEST_F(Figures, RefusesStepsOfAnotherKind) {
 
 TEST_F(Figures, SayWhereToGetMatplotlib) {
   run_whole("a");
-  const Answer without = figures("a", "b", "--python false");
-  EXPECT_EQ(without.exit_code, 1);
-  EXPECT_THAT(without.err,
+  EXPECT_THAT(refusal(figures("a", "b", "--python false"), 1),
               AllOf(HasSubstr("false: cannot import matplotlib"), HasSubstr("package python3-matplotlib")));
-  const Answer missing = figures("a", "b", "--python " + file("python"));
-  EXPECT_EQ(missing.exit_code, 1);
-  EXPECT_THAT(missing.err, HasSubstr(file("python") + ": No such file or directory"));
+  EXPECT_THAT(refusal(figures("a", "b", "--python " + file("python")), 1),
+              HasSubstr(file("python") + ": No such file or directory"));
   EXPECT_FALSE(fs::exists(file("b")));
 }
 
@@ -181,16 +176,14 @@ TEST_F(Figures, TakeThePythonOfPathFirst) {
   setenv("PATH", (file("bin") + ":" + path).c_str(), 1);
   const Answer answer = figures("a", "b");
   setenv("PATH", path.c_str(), 1);
-  EXPECT_EQ(answer.exit_code, 0) << answer.err;
-  EXPECT_EQ(answer.out, "called\n");
+  EXPECT_EQ(good(answer).out, "called\n");
 }
 
 TEST_F(Figures, FailWithTheScript) {
   run_whole("a");
   const std::string failing = program("failing", "[ \"$1\" = -c ] || { echo nonsense >&2; exit 7; }");
-  const Answer answer = figures("a", "b", "--python " + failing);
-  EXPECT_EQ(answer.exit_code, 1);
-  EXPECT_THAT(answer.err, AllOf(StartsWith("nonsense\n"), HasSubstr("b/figures.py: ended with exit code 7")));
+  EXPECT_THAT(refusal(figures("a", "b", "--python " + failing), 1),
+              AllOf(StartsWith("nonsense\n"), HasSubstr("b/figures.py: ended with exit code 7")));
 }
 
 /// A sweep of three by two values, right at so many of 4 starts: 0, 4; 1, 3; 3, 2.
@@ -234,13 +227,11 @@ TEST_F(SweepFigures, HandWhatSweepTellsToTheScript) {
 TEST_F(SweepFigures, RefuseWhatIsNoSweep) {
   write_experiment("trials: {every_scan: 9, max_steps: 1}\n", "seeds: 1..2\n");
   good(run_room("seeds"));
-  const Answer answer = figures("seeds", "c", "--sweep" + pretended_python());
-  EXPECT_EQ(answer.exit_code, 2);
-  EXPECT_THAT(answer.err, HasSubstr("/seeds: error: no parameter varies, so that there is nothing to draw"));
+  EXPECT_THAT(refusal(figures("seeds", "c", "--sweep" + pretended_python())),
+              HasSubstr("/seeds: error: no parameter varies, so that there is nothing to draw"));
   EXPECT_FALSE(fs::exists(file("c")));
-  const Answer several = run("figures --sweep " + file("all") + " " + file("seeds") + " -o " + file("c"));
-  EXPECT_EQ(several.exit_code, 2);
-  EXPECT_THAT(several.err, HasSubstr("/seeds: error: is one folder too many; name that of one sweep"));
+  EXPECT_THAT(refusal(run("figures --sweep " + file("all") + " " + file("seeds") + " -o " + file("c"))),
+              HasSubstr("/seeds: error: is one folder too many; name that of one sweep"));
 }
 
 TEST_F(SweepFigures, HaveTheSharesOfTheSweep) {

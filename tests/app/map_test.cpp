@@ -102,18 +102,14 @@ TEST_F(MapCommand, AlignsAMapWithOneFarAway) {
 TEST_F(MapCommand, SaysWhereMapsDoNotFit) {
   good(run("map build " + file("drive.log") + " -o " + file("tiny.yaml") + " --set resolution=0.5"));
   const std::string lab = std::string(GLOCAL_SOURCE_DIR) + "/configs/experiments/paper_lab.yaml";
-  const Answer answer = run("map align " + file("tiny.yaml") + " " + lab);
-  EXPECT_EQ(answer.exit_code, 1);
-  EXPECT_THAT(answer.err, HasSubstr("does not fit into"));
+  EXPECT_THAT(refusal(run("map align " + file("tiny.yaml") + " " + lab), 1), HasSubstr("does not fit into"));
 }
 
 TEST_F(MapCommand, ReplacesFilesOnlyByForce) {
   const std::string build = "map build " + file("drive.log") + " -o " + file("a.yaml");
   good(run(build));
   const std::string before = content(file("a.yaml"));
-  const Answer refused = run(build + " --set resolution=0.5");
-  EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_THAT(refused.err,
+  EXPECT_THAT(refusal(run(build + " --set resolution=0.5")),
               HasSubstr("a.pgm: error: the file exists; choose another name, or replace it with --force"));
   EXPECT_EQ(content(file("a.yaml")), before);
   good(run(build + " --set resolution=0.5 --force"));
@@ -121,11 +117,10 @@ TEST_F(MapCommand, ReplacesFilesOnlyByForce) {
 }
 
 TEST_F(MapCommand, ReportsFaults) {
-  const Answer answer =
-      run("map build " + file("drive.log") + " -o " + file("a.yaml") + " --set rez=1 --set segments=3");
-  EXPECT_EQ(answer.exit_code, 2);
-  EXPECT_THAT(answer.err, HasSubstr("--set rez=1: error: unknown key 'rez'"));
-  EXPECT_THAT(answer.err, HasSubstr("--set segments=3: error: segments: expected a list, got '3'"));
+  const std::string said = refusal(
+      run("map build " + file("drive.log") + " -o " + file("a.yaml") + " --set rez=1 --set segments=3"));
+  EXPECT_THAT(said, HasSubstr("--set rez=1: error: unknown key 'rez'"));
+  EXPECT_THAT(said, HasSubstr("--set segments=3: error: segments: expected a list, got '3'"));
   EXPECT_THAT(run("map build " + file("drive.log") + " -o " + file("a.tif")).err,
               HasSubstr("the name must end in .yaml (ROS map) or .pcd (points)"));
   EXPECT_THAT(run("map info " + file("none.yaml")).err, HasSubstr("no such file"));

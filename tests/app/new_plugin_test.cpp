@@ -57,7 +57,7 @@ TEST_F(NewPluginCommand, TheFolderIsCalledAsTheStrategyUnlessItIsNamed) {
   fs::current_path(folder_.path());
   const Answer answer = run("new-plugin rater my_rater");
   fs::current_path(before);
-  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  good(answer);
   EXPECT_TRUE(fs::exists(folder_.path() / "my_rater/my_rater.cpp"));
 }
 
@@ -74,9 +74,7 @@ TEST_F(NewPluginCommand, RefusesWhatCannotBeBuilt) {
 TEST_F(NewPluginCommand, LeavesAFolderThatIsInUseAlone) {
   fs::create_directory(folder());
   std::ofstream(folder() / "thesis.txt") << "unfinished\n";
-  const Answer answer = run("new-plugin matcher mine -o " + folder().string());
-  EXPECT_EQ(answer.exit_code, 2);
-  EXPECT_THAT(answer.err, HasSubstr(folder().string()));
+  EXPECT_THAT(refusal(run("new-plugin matcher mine -o " + folder().string())), HasSubstr(folder().string()));
   EXPECT_EQ(content(folder() / "thesis.txt"), "unfinished\n");
   EXPECT_FALSE(fs::exists(folder() / "mine.cpp"));
 }

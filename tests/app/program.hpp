@@ -27,6 +27,14 @@ inline Answer good(Answer answer, const char* file = __builtin_FILE(), int line 
   throw std::runtime_error("the test cannot go on");
 }
 
+/// What a command says that is refused.
+inline std::string refusal(const Answer& answer, int exit_code = 2, const char* file = __builtin_FILE(),
+                           int line = __builtin_LINE()) {
+  if (answer.exit_code != exit_code)
+    ADD_FAILURE_AT(file, line) << "exit code " << answer.exit_code << "\n" << answer.err;
+  return answer.err;
+}
+
 class CommandLine : public testing::Test {
  protected:
   [[nodiscard]] Answer run(const std::string& arguments) const {

@@ -122,18 +122,15 @@ TEST_F(Submit, TellsWhereThereIsNoSlurm) {
 
 TEST_F(Submit, TellsWhatSlurmSays) {
   pretend("scontrol", "echo 'slurm_load_ctl_conf error: Unable to contact slurm controller' >&2; exit 1");
-  Answer answer = submit("--slurm");
-  EXPECT_EQ(answer.exit_code, 1);
-  EXPECT_EQ(answer.err,
+  EXPECT_EQ(refusal(submit("--slurm"), 1),
             "error: scontrol has failed:\nslurm_load_ctl_conf error: Unable to contact slurm controller\n");
   expect_nothing_done();
 
   pretend("scontrol", ":");
   pretend("sbatch",
           "[ $1 = --version ] || { echo 'sbatch: error: invalid partition specified: short' >&2; exit 1; }");
-  answer = submit("--slurm");
-  EXPECT_EQ(answer.exit_code, 1);
-  EXPECT_EQ(answer.err, "error: sbatch has failed:\nsbatch: error: invalid partition specified: short\n");
+  EXPECT_EQ(refusal(submit("--slurm"), 1),
+            "error: sbatch has failed:\nsbatch: error: invalid partition specified: short\n");
   EXPECT_THAT(calls(), Not(HasSubstr("--dependency")));
 }
 
@@ -141,23 +138,18 @@ TEST_F(Submit, CancelsAnArrayWithoutAMerge) {
   pretend("sbatch",
           "case $* in *--dependency*) echo 'sbatch: error: Job dependency problem' >&2; exit 1 ;; *) echo 41 "
           ";; esac");
-  Answer answer = submit("--slurm");
-  EXPECT_EQ(answer.exit_code, 1);
-  EXPECT_EQ(answer.err,
+  EXPECT_EQ(refusal(submit("--slurm"), 1),
             "error: sbatch has failed:\nsbatch: error: Job dependency problem\n"
             "note: job 41, the array before it, has been cancelled\n");
   EXPECT_THAT(calls(), HasSubstr("scancel 41\n"));
   remove("scancel");
-  answer = submit("--slurm");
-  EXPECT_THAT(answer.err,
+  EXPECT_THAT(submit("--slurm").err,
               HasSubstr("job 41, the array before it, is queued still, as scancel failed: No such file"));
 }
 
 TEST_F(Submit, QueuesNothingTwice) {
   pretend("squeue", "echo '5 /else/array.sbatch'; echo '41 " + file("results/.shards/array.sbatch") + "'");
-  const Answer answer = submit("--slurm");
-  EXPECT_EQ(answer.exit_code, 1);
-  EXPECT_THAT(answer.err,
+  EXPECT_THAT(refusal(submit("--slurm"), 1),
               HasSubstr("job 41 runs these shards already: wait for it, or cancel it first (scancel 41)"));
   expect_nothing_done();
 }
@@ -181,9 +173,8 @@ TEST_F(Submit, RefusesOptionsThatSchedulersWouldMisread) {
   expect_refused("--slurm --set nothing", "not of the form path=value");
   expect_refused("--parallel --time 10", "--time requires --slurm");
   expect_refused("--parallel --sshlogin " + file("hosts"), "hosts: error: cannot be read: No such file");
-  const Answer answer = run("submit " + file("room.yaml") + " --slurm --out '" + file("a\\b") + "'");
-  EXPECT_EQ(answer.exit_code, 2);
-  EXPECT_THAT(answer.err, HasSubstr("a line break or a backslash"));
+  EXPECT_THAT(refusal(run("submit " + file("room.yaml") + " --slurm --out '" + file("a\\b") + "'")),
+              HasSubstr("a line break or a backslash"));
   EXPECT_FALSE(fs::exists(file("a\\b")));
 }
 
@@ -205,9 +196,7 @@ TEST_F(Submit, GnuParallelRunsAllShardsAndMerges) {
 
 TEST_F(Submit, TellsWhatGnuParallelHasNotDone) {
   pretend("parallel", "[ $1 = --version ] && echo GNU parallel 20221122 || sh shard.sh 2");
-  const Answer answer = submit("--parallel --shards 3");
-  EXPECT_EQ(answer.exit_code, 3);
-  EXPECT_THAT(answer.err, HasSubstr("of 11 trials are missing"));
+  EXPECT_THAT(refusal(submit("--parallel --shards 3"), 3), HasSubstr("of 11 trials are missing"));
 }
 
 TEST_F(Submit, CtrlCEndsAllInGoodOrder) {
@@ -216,9 +205,7 @@ TEST_F(Submit, CtrlCEndsAllInGoodOrder) {
       "parallel",
       "[ $1 = --version ] && echo GNU parallel 20221122 && exit; read -r _ _ _ glocal _ </proc/$PPID/stat; "
       "kill -INT $PPID $glocal");
-  const Answer answer = submit("--parallel");
-  EXPECT_EQ(answer.exit_code, 3);
-  EXPECT_THAT(answer.err, Not(HasSubstr("missing"))) << "nothing is merged";
+  EXPECT_THAT(refusal(submit("--parallel"), 3), Not(HasSubstr("missing"))) << "nothing is merged";
 }
 
 TEST_F(Submit, GnuParallelRunsWhatAnExperimentHasGotSince) {
