@@ -71,7 +71,7 @@ TEST(ShortNumber, HasSevenDigitsAndNoPointWhereItIsWhole) {
 TEST(StepColumns, HaveAValueForEachStep) {
   StepRecord first = step_record(0, {1.5, -2.0, 1.0 / 3.0});
   first.reference = Pose2{1.0, -2.0, 0.25};
-  first.error = error_of(0.5, 2.0);
+  first.error = off_by(0.5, 2.0);
   StepRecord second = step_record(1, {1, 2, 3});
   second.result.omega_place = std::nullopt;
   second.result.clusters.clear();

@@ -32,7 +32,8 @@ inline StepRecord step_record(std::size_t step, const Pose2& pose) {
   return record;
 }
 
-inline PoseError error_of(double translation_m, double rotation_deg) {
+/// The error of a pose that is off by so much.
+inline PoseError off_by(double translation_m, double rotation_deg) {
   return {translation_m, radians(rotation_deg)};
 }
 

@@ -29,11 +29,11 @@ TrialRecord trial_record(std::size_t trial) {
   record.outcome = Outcome::right;
   record.steps = 2;
   record.distance_m = 1.0 / 3.0 + static_cast<double>(trial);
-  record.error = error_of(0.1, 1.0 / 7.0);
+  record.error = off_by(0.1, 1.0 / 7.0);
   record.records = {step_record(0, {1, 2, 0.5}), step_record(1, {1, 2, 0.5})};
   record.records[1].result.stage_ms = {0.1, 1e-17, 2.0 / 3.0, 4.0};
   record.records[1].result.verdict.kind = VerdictKind::localized;
-  record.records[1].error = error_of(0.1, 1.0 / 7.0);
+  record.records[1].error = off_by(0.1, 1.0 / 7.0);
   return record;
 }
 

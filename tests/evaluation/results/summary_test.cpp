@@ -37,8 +37,8 @@ void expect_spread(const Json& json, double median, double p95, double max) {
 
 TEST(Summary, CountsOutcomesAndSpreadsOfTheRightOnes) {
   const Json json = sum_up(
-      {trial(Outcome::right, 10, 2.0, error_of(0.1, 1.0)), trial(Outcome::right, 20, 4.0, error_of(0.3, 3.0)),
-       trial(Outcome::right, 40, 9.0, error_of(0.2, 2.0)), trial(Outcome::wrong, 5, 1.0, error_of(8.0, 90.0)),
+      {trial(Outcome::right, 10, 2.0, off_by(0.1, 1.0)), trial(Outcome::right, 20, 4.0, off_by(0.3, 3.0)),
+       trial(Outcome::right, 40, 9.0, off_by(0.2, 2.0)), trial(Outcome::wrong, 5, 1.0, off_by(8.0, 90.0)),
        trial(Outcome::undecided, 60, 15.0, {})});
   EXPECT_EQ(json["name"], "a name");
   EXPECT_EQ(json["seed"], 42);
@@ -79,12 +79,12 @@ TEST(Summary, TimesAreOfAllStepsOfAllTrials) {
 }
 
 TEST(Summary, ErrorsAfterTheDeclarationAreThoseOfLocalizedStepsOnTheMap) {
-  TrialRecord record = trial(Outcome::right, 2, 1.0, error_of(0.1, 1.0));
+  TrialRecord record = trial(Outcome::right, 2, 1.0, off_by(0.1, 1.0));
   // Step 0 is before the declaration; step 3 is off the map, step 4 is not localized; step 6 has no error.
   const std::vector<double> errors = {9.0, 0.1, 0.2, 9.0, 9.0, 0.4, 0.0};
   for (std::size_t i = 0; i < errors.size(); ++i) {
     record.records.push_back(step_record(i, {}));
-    record.records[i].error = error_of(errors[i], 10.0 * errors[i]);
+    record.records[i].error = off_by(errors[i], 10.0 * errors[i]);
     record.records[i].result.verdict.kind = i == 0 ? VerdictKind::searching : VerdictKind::localized;
   }
   record.records[3].on_map = false;

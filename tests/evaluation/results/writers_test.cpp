@@ -28,7 +28,7 @@ Json parse_line(const std::string& line) {
 TEST(StepLine, HasTheKeysOfTheContract) {
   StepRecord record = step_record(3, {1.5, -2.0, 0.25});
   record.reference = Pose2{1.0, -2.0, 0.25};
-  record.error = error_of(0.5, 2.0);
+  record.error = off_by(0.5, 2.0);
   const Json json = parse_line(step_line(7, record));
   EXPECT_THAT(keys(json),
               ::testing::UnorderedElementsAre(
@@ -172,7 +172,7 @@ TEST(TrialLine, HasTheKeysOfTheContract) {
   trial.steps = 5;
   trial.distance_m = 4.5;
   trial.pose = Pose2{7, 8, 0.5};
-  trial.error = error_of(3.0, 1.0);
+  trial.error = off_by(3.0, 1.0);
   trial.why = "found \"it\"\n";
   const Json json = parse_line(trial_line(trial));
   EXPECT_THAT(keys(json),
