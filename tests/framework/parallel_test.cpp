@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cpu_time.hpp"
+#include "files.hpp"
 
 namespace glocal::test::parallel_test {
 namespace {
@@ -82,12 +83,8 @@ TEST(ParallelFor, ThrowsWhatACallThrows) {
     const auto work = [](std::size_t i) {
       if (i == 500) throw std::runtime_error("number " + std::to_string(i));
     };
-    try {
-      parallel_for(threads, many, work);
-      ADD_FAILURE() << "nothing was thrown with " << threads << " threads";
-    } catch (const std::runtime_error& error) {
-      EXPECT_STREQ(error.what(), "number 500");
-    }
+    EXPECT_EQ(test::error_of<std::runtime_error>([&] { parallel_for(threads, many, work); }), "number 500")
+        << threads << " threads";
   }
 }
 

@@ -79,15 +79,7 @@ class ReportDataTest : public testing::Test {
 
   /// All that is said of a folder.
   [[nodiscard]] std::vector<std::string> faults(const std::string& name = "a") const {
-    std::vector<std::string> said;
-    try {
-      ReportData({}).add(folder_ / name);
-    } catch (const ConfigError& error) {
-      for (const Fault& fault : error.faults())
-        said.push_back(fs::relative(fault.file, folder_ / "").string() +
-                       to_string(fault).substr(fault.file.size()));
-    }
-    return said;
+    return config_faults(folder_.path(), [&] { ReportData({}).add(folder_ / name); });
   }
 
   TemporaryFolder folder_;

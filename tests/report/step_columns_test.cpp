@@ -8,6 +8,7 @@
 
 #include "evaluation/results/records.hpp"
 #include "evaluation/results/writers.hpp"
+#include "files.hpp"
 #include "report/numbers.hpp"
 
 namespace glocal::test::step_columns_test {
@@ -28,13 +29,7 @@ Json columns_of(const std::vector<StepRecord>& records, std::size_t clusters = 5
 
 /// What is said of a line.
 std::string fault(const Json& line) {
-  StepColumns columns(50);
-  try {
-    columns.add(line);
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "";
+  return error_of<std::exception>([&] { StepColumns(50).add(line); });
 }
 
 TEST(Rounded, IsTheNearestMultipleAndNullForWhatIsNone) {
@@ -176,12 +171,9 @@ TEST(StepColumns, WantOneStepAfterTheOther) {
   StepColumns columns(50);
   columns.add(line_of(step_record(0, {})));
   for (const std::size_t wrong : {0U, 2U}) {
-    try {
-      columns.add(line_of(step_record(wrong, {})));
-      ADD_FAILURE() << wrong;
-    } catch (const std::invalid_argument& error) {
-      EXPECT_THAT(error.what(), HasSubstr("of trial 0 is here, where step 1 belongs"));
-    }
+    EXPECT_THAT(error_of<std::invalid_argument>([&] { columns.add(line_of(step_record(wrong, {}))); }),
+                HasSubstr("of trial 0 is here, where step 1 belongs"))
+        << wrong;
   }
   EXPECT_EQ(columns.size(), 1U);
   EXPECT_THAT(columns.step_ms(), testing::ElementsAre(10.0F));

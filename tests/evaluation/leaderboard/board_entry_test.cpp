@@ -6,9 +6,8 @@
 
 #include "evaluation/leaderboard/board_tables.hpp"
 #include "evaluation/leaderboard/entries_of_runs.hpp"
-#include "glocal/error.hpp"
+#include "files.hpp"
 #include "glocal/pose2.hpp"
-#include "temporary_folder.hpp"
 
 namespace glocal::test::board_entry_test {
 namespace {
@@ -64,15 +63,6 @@ void expect_same(const BoardEntry& a, const BoardEntry& b) {
   }
 }
 
-std::string fault_of(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "";
-}
-
 TEST(BoardEntryTest, ComesBackAsItWasWritten) {
   const TemporaryFolder folder;
   expect_same(read_entry(folder.write("mine.json", to_text(some_entry()))), some_entry());
@@ -94,7 +84,7 @@ TEST(BoardEntryTest, DamagedFilesAreRefused) {
   const auto fault = [&](const std::string& from, const std::string& to) {
     std::string damaged = text;
     damaged.replace(damaged.find(from), from.size(), to);
-    return fault_of([&] { static_cast<void>(read_entry(folder.write("mine.json", damaged))); });
+    return error_of([&] { return read_entry(folder.write("mine.json", damaged)); });
   };
   EXPECT_THAT(fault("[2,5,41]", "[2,5]"), HasSubstr("'steps' has not as many values as 'outcome'"));
   EXPECT_THAT(fault("rwu", "rxu"), HasSubstr("'x' is no outcome"));
@@ -110,15 +100,15 @@ TEST(BoardEntryTest, AnEntryIsOfTheWholeSuite) {
   expect_same(entry, some_entry());
 
   entry.results.pop_back();
-  EXPECT_THAT(fault_of([&] { require_whole(entry, small_suite(), "mine.json"); }),
+  EXPECT_THAT(error_of([&] { require_whole(entry, small_suite(), "mine.json"); }),
               HasSubstr("mine.json: error: small@1: there is no result for the case hall with seed 2"));
   entry = some_entry();
   entry.results[1].starts.pop_back();
-  EXPECT_THAT(fault_of([&] { require_whole(entry, small_suite(), "mine.json"); }),
+  EXPECT_THAT(error_of([&] { require_whole(entry, small_suite(), "mine.json"); }),
               HasSubstr("the case room with seed 2 has 2 starts here, and should have 3"));
   entry = some_entry();
   entry.results.push_back({"attic", 1, {}, {}, {}, {}});
-  EXPECT_THAT(fault_of([&] { require_whole(entry, small_suite(), "mine.json"); }),
+  EXPECT_THAT(error_of([&] { require_whole(entry, small_suite(), "mine.json"); }),
               HasSubstr("there are results of other cases or seeds than the suite's"));
 }
 
@@ -160,7 +150,7 @@ TEST(BoardEntryTest, AShareOfASuiteHasItsStarts) {
   EXPECT_THAT(as_text(board_tables(suite, {again}, {})), HasSubstr("mine (share 0.5)"));
 
   again.share = 1.0;
-  EXPECT_THAT(fault_of([&] { require_whole(again, suite, file); }), HasSubstr("and should have 3"));
+  EXPECT_THAT(error_of([&] { require_whole(again, suite, file); }), HasSubstr("and should have 3"));
 }
 
 TEST(BoardEntryTest, SharesThatCannotBeAreRefused) {
@@ -168,7 +158,7 @@ TEST(BoardEntryTest, SharesThatCannotBeAreRefused) {
   const auto fault = [&](double share) {
     BoardEntry entry = some_entry();
     entry.share = share;
-    return fault_of([&] { static_cast<void>(read_entry(folder.write("mine.json", to_text(entry)))); });
+    return error_of([&] { return read_entry(folder.write("mine.json", to_text(entry))); });
   };
   EXPECT_THAT(fault(-0.5), HasSubstr("'share' is not in (0, 1]"));
   EXPECT_THAT(fault(1e-9), HasSubstr("'share' is too small for so many starts"));

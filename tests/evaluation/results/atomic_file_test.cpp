@@ -75,13 +75,8 @@ TEST(AtomicFiles, SayWhyTheyCannotBeWritten) {
   EXPECT_EQ(test::config_error((folder / "sub").parent_path(), [&] { files.add(folder / "sub", "x"); }),
             "sub: error: is a folder; name a file");
   folder.write("a.txt", "");
-  try {
-    files.add(folder / "a.txt/b.txt", "x");
-    FAIL() << "a file cannot hold files";
-  } catch (const RunError& error) {
-    EXPECT_EQ(std::string(error.what()),
-              (folder / "a.txt/b.txt").string() + ": cannot write: Not a directory");
-  }
+  EXPECT_EQ(error_of<RunError>([&] { files.add(folder / "a.txt/b.txt", "x"); }),
+            (folder / "a.txt/b.txt").string() + ": cannot write: Not a directory");
 }
 
 TEST(AppendToFile, FailsOnAFullDisk) {

@@ -5,7 +5,6 @@
 
 #include "evaluation/results/pcd.hpp"
 #include "files.hpp"
-#include "glocal/error.hpp"
 
 namespace glocal::test::map_files_test {
 namespace {
@@ -46,12 +45,7 @@ class ReadGrid : public testing::Test {
     return read_grid(folder_ / "grid.json");
   }
   std::string fault(const std::string& content) {
-    try {
-      static_cast<void>(read(content));
-    } catch (const ConfigError& error) {
-      return error.what();
-    }
-    return "no fault";
+    return error_of([&] { return read(content); });
   }
 
  private:

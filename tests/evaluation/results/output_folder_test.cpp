@@ -23,16 +23,6 @@ std::ptrdiff_t entries(const fs::path& folder) {
   return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
 }
 
-template <class Call>
-std::string run_error(Call call) {
-  try {
-    call();
-  } catch (const RunError& error) {
-    return error.what();
-  }
-  return "";
-}
-
 /// Files of at most so many bytes, as if the disk were full; the limit before is restored.
 class FileSizeLimit {
  public:
@@ -131,7 +121,7 @@ TEST(OutputFolder, KeepsResultsThatAppearedMeanwhile) {
     out.append("provenance.json", "later");
     fs::create_directory(folder / "results");
     folder.write("results/provenance.json", "sooner");
-    EXPECT_NE(run_error([&] { out.commit(); }), "");
+    EXPECT_NE(error_of<RunError>([&] { out.commit(); }), "");
   }
   EXPECT_EQ(content_of(folder / "results/provenance.json"), "sooner");
   EXPECT_EQ(entries(folder / ""), 1);
@@ -222,7 +212,7 @@ TEST(OutputFolder, HasOneOwner) {
 TEST(OutputFolder, SaysWhyItCannotBeMade) {
   const TemporaryFolder folder;
   const fs::path file = folder.write("a.txt", "");
-  EXPECT_EQ(run_error([&] { OutputFolder(file / "results", false); }),
+  EXPECT_EQ(error_of<RunError>([&] { OutputFolder(file / "results", false); }),
             (file / "results").string() + ": cannot write: Not a directory");
 }
 
@@ -232,7 +222,7 @@ TEST(OutputFolder, AFullDiskLeavesNothing) {
     OutputFolder out(folder / "results", false);
     out.append("provenance.json", "small");
     const FileSizeLimit full(1000);
-    EXPECT_EQ(run_error([&] { out.append("steps.jsonl", std::string(5000, 'x')); }),
+    EXPECT_EQ(error_of<RunError>([&] { out.append("steps.jsonl", std::string(5000, 'x')); }),
               (folder / "results").string() +
                   ": cannot write steps.jsonl: File too large (for the limit that the shell or the system "
                   "sets: ulimit -f)");
@@ -245,7 +235,7 @@ TEST(OutputFolder, AFullDiskTellsWhereFinishedWorkIs) {
   OutputFolder out(folder / "results", false);
   out.keep_unfinished();
   const FileSizeLimit full(1000);
-  EXPECT_THAT(run_error([&] { out.write("maps/a.pcd", std::string(5000, 'x')); }),
+  EXPECT_THAT(error_of<RunError>([&] { out.write("maps/a.pcd", std::string(5000, 'x')); }),
               AllOf(HasSubstr("/results: cannot write maps/a.pcd: "),
                     HasSubstr("; finished trials are kept in " + out.unfinished().string() +
                               ": give the same command again")));
@@ -274,7 +264,7 @@ TEST(OutputFolder, IsCheckedWithoutBeingTouched) {
   const TemporaryFolder folder;
   const fs::path file = folder.write("a.txt", "mine");
   const fs::path parent = file.parent_path();
-  EXPECT_EQ(run_error([&] { OutputFolder::check(file / "results", false); }),
+  EXPECT_EQ(error_of<RunError>([&] { OutputFolder::check(file / "results", false); }),
             (file / "results").string() + ": cannot write: Not a directory: " + file.string());
   EXPECT_THAT(config_error(parent, [&] { OutputFolder::check(file, true); }), HasSubstr("is not a folder"));
   EXPECT_THAT(config_error(parent, [&] { OutputFolder::check(parent, true); }),
@@ -346,7 +336,7 @@ TEST_F(LockedResults, ThatCannotBeRemovedAreNotLeftInSilence) {
     lock_maps();
     if (getuid() == 0) static_cast<void>(seteuid(65534));
   }
-  EXPECT_THAT(run_error([&] { out.commit(); }),
+  EXPECT_THAT(error_of<RunError>([&] { out.commit(); }),
               AllOf(HasSubstr((folder_ / ".results.replaced").string() + ": cannot remove"),
                     HasSubstr("remove the folder, then give the same command again")));
   EXPECT_EQ(content_of(folder_ / "results/provenance.json"), "new");

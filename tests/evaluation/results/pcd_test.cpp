@@ -91,14 +91,10 @@ TEST_F(ReadPcd, RefusesOtherFiles) {
 }
 
 TEST_F(ReadPcd, RefusesWhatIsNoFile) {
-  for (const char* name : {"", "missing.pcd"}) {
-    try {
-      static_cast<void>(read_pcd(folder_ / name));
-      ADD_FAILURE() << name;
-    } catch (const ConfigError& error) {
-      EXPECT_THAT(error.what(), HasSubstr("cannot be read; run the experiment again"));
-    }
-  }
+  for (const char* name : {"", "missing.pcd"})
+    EXPECT_THAT(error_of([&] { return read_pcd(folder_ / name); }),
+                HasSubstr("cannot be read; run the experiment again"))
+        << name;
 }
 
 TEST_F(ReadPcd, RefusesCoordinatesThatAreNoLengths) {

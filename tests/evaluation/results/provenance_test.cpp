@@ -24,12 +24,8 @@ TEST(Sha256, AgreesWithPublishedDigests) {
 
 TEST(Sha256, NamesAFileItCannotRead) {
   const TemporaryFolder folder;
-  try {
-    static_cast<void>(sha256_of_file(folder / "nothing"));
-    FAIL() << "there is no such file";
-  } catch (const RunError& error) {
-    EXPECT_EQ(std::string(error.what()), (folder / "nothing").string() + ": cannot read");
-  }
+  EXPECT_EQ(error_of<RunError>([&] { return sha256_of_file(folder / "nothing"); }),
+            (folder / "nothing").string() + ": cannot read");
 }
 
 TEST(Provenance, SaysWhereResultsComeFrom) {

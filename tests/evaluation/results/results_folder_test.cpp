@@ -65,12 +65,7 @@ class ResultsFolder : public testing::Test {
 
   /// What is said of the folder when it is read.
   [[nodiscard]] std::string fault() const {
-    try {
-      static_cast<void>(read_results(folder()));
-    } catch (const ConfigError& error) {
-      return error.what();
-    }
-    return "";
+    return error_of([&] { return read_results(folder()); });
   }
 
   TemporaryFolder temporary_;

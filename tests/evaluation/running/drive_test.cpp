@@ -3,8 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include "files.hpp"
 #include "framework/pipeline/fakes.hpp"
-#include "glocal/error.hpp"
 
 namespace glocal::test::drive_test {
 namespace {
@@ -40,12 +40,7 @@ std::vector<std::size_t> starts(const TrialsConfig& config, const Drive& drive,
 
 std::string fault(const TrialsConfig& config, const Drive& drive,
                   const GlobalMap& map = *map_of_one_point()) {
-  try {
-    static_cast<void>(starts(config, drive, map));
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "";
+  return error_of([&] { return starts(config, drive, map); });
 }
 
 TEST(Drive, ItsPathIsThatOfOdometry) {
@@ -186,12 +181,8 @@ TEST(ChosenStarts, AreThoseThatAreNamedAndKeepTheirNumbers) {
   EXPECT_THAT(chosen_starts(config, all), ElementsAre(4, 15));
   EXPECT_EQ(start_number(config, 1), 3U);
   config.only = {4.0};
-  try {
-    static_cast<void>(chosen_starts(config, all));
-    ADD_FAILURE() << "there is no start 4";
-  } catch (const ConfigError& error) {
-    EXPECT_STREQ(error.what(), "error: trials.only: there is no start 4; the starts are 0 to 3");
-  }
+  EXPECT_EQ(error_of([&] { return chosen_starts(config, all); }),
+            "error: trials.only: there is no start 4; the starts are 0 to 3");
 }
 
 }  // namespace

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "files.hpp"
 #include "framework/pipeline/fakes.hpp"
-#include "glocal/error.hpp"
 
 namespace glocal::test::experiment_loader_test {
 namespace {
@@ -35,12 +35,7 @@ class Loading : public testing::Test {
   }
 
   [[nodiscard]] std::string fault() const {
-    try {
-      static_cast<void>(load());
-    } catch (const ConfigError& error) {
-      return error.what();
-    }
-    return "";
+    return error_of([&] { return load(); });
   }
 
   MapData map_;

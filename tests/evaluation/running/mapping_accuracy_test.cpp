@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "glocal/error.hpp"
+#include "files.hpp"
 
 namespace glocal::mapping_accuracy_test {
 namespace {
@@ -162,12 +162,8 @@ TEST(MappingAccuracy, NeedsReferencePoses) {
   Drive drive = straight(81, 1.0);
   drive.samples[7].map_from_robot.reset();
   OdometryMapper mapper;
-  try {
-    (void)measure_mapping(drive, mapper, {});
-    FAIL() << "no error";
-  } catch (const ConfigError& error) {
-    EXPECT_THAT(error.what(), ::testing::HasSubstr("number 8 has no reference pose"));
-  }
+  EXPECT_THAT(test::error_of([&] { return measure_mapping(drive, mapper, {}); }),
+              ::testing::HasSubstr("number 8 has no reference pose"));
 }
 
 }  // namespace

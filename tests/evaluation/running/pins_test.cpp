@@ -3,8 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "glocal/error.hpp"
-#include "temporary_folder.hpp"
+#include "files.hpp"
 
 namespace glocal::test::pins_test {
 namespace {
@@ -29,12 +28,7 @@ class Pins : public testing::Test {
     variant.case_name = "room";
     variant.suite = std::make_shared<const Suite>(suite_);
     FileHashes fresh;
-    try {
-      check_pins(variant, loaded_, fresh);
-    } catch (const ConfigError& error) {
-      return error.what();
-    }
-    return "";
+    return error_of([&] { check_pins(variant, loaded_, fresh); });
   }
 
   TemporaryFolder folder_;

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "evaluation/sweeps/runs.hpp"
+#include "files.hpp"
 #include "glocal/error.hpp"
 
 namespace glocal::test::analysis_test {
@@ -268,12 +269,7 @@ TEST(Sweep, TheMapShowsWhatIsAskedFor) {
   EXPECT_EQ(two.parameters.effects[two.parameters.map->column].path, "q.b");
   EXPECT_EQ(two.parameters.effects[0].path, "q.b") << "of the largest effect";
   const auto fault = [&](const std::string& a, const std::string& b) {
-    try {
-      static_cast<void>(analyse_sweep(runs, std::pair(a, b)));
-    } catch (const ConfigError& error) {
-      return to_string(error.faults().front());
-    }
-    return std::string();
+    return error_of([&] { return analyse_sweep(runs, std::pair(a, b)); });
   };
   EXPECT_EQ(fault("b", "a"), "--map b: error: more than one parameter ends so; name its whole path");
   EXPECT_EQ(fault("a", "a"), "--map a a: error: is one parameter twice; name two");
@@ -283,12 +279,7 @@ TEST(Sweep, TheMapShowsWhatIsAskedFor) {
 
 TEST(Sweep, RefusesWhatIsNoSweep) {
   const auto fault = [](const std::vector<NamedRun>& runs) {
-    try {
-      static_cast<void>(analyse_sweep(runs));
-    } catch (const ConfigError& error) {
-      return to_string(error.faults().front());
-    }
-    return std::string();
+    return error_of([&] { return analyse_sweep(runs); });
   };
   std::vector<NamedRun> runs = {sweep_run({"a"}, "r"), sweep_run({"b"}, "r")};
   EXPECT_TRUE(is_sweep(runs));

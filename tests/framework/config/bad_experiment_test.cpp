@@ -6,10 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "files.hpp"
 #include "framework/config/toy_catalog.hpp"
-#include "glocal/error.hpp"
 #include "glocal/experiment.hpp"
-#include "temporary_folder.hpp"
 
 namespace glocal::test::bad_experiment_test {
 namespace {
@@ -50,21 +49,7 @@ class ExperimentFile : public testing::Test {
   }
 
   Lines faults_of_file(const std::filesystem::path& file, const std::vector<Override>& overrides = {}) {
-    try {
-      static_cast<void>(read_experiment(file, overrides, catalog_));
-    } catch (const ConfigError& error) {
-      Lines lines;
-      for (const Fault& fault : error.faults()) lines.push_back(without_folder(to_string(fault)));
-      return lines;
-    }
-    return {};
-  }
-
-  std::string without_folder(std::string text) const {
-    const std::string prefix = folder_.path().string() + "/";
-    for (auto at = text.find(prefix); at != std::string::npos; at = text.find(prefix))
-      text.erase(at, prefix.size());
-    return text;
+    return config_faults(folder_.path(), [&] { return read_experiment(file, overrides, catalog_); });
   }
 
   Catalog catalog_;
@@ -462,15 +447,11 @@ TEST_F(ExperimentFile, DefaultThatIsNotRegisteredMustBeReplaced) {
   const auto file = folder_.write(
       "e.yaml",
       replaced(valid, "localizer:\n  matcher:\n    ransam: {iterations: 500, contact_epsilon: 0.10}\n", ""));
-  try {
-    static_cast<void>(read_experiment(file, {}, poor));
-    FAIL() << "accepted";
-  } catch (const ConfigError& error) {
-    ASSERT_EQ(error.faults().size(), 7U);
-    EXPECT_EQ(without_folder(to_string(error.faults()[2])),
-              "e.yaml:1:1: error: localizer: matcher: the default matcher 'ransam' does not exist; name "
-              "another (there are: other)");
-  }
+  const Lines faults = config_faults(folder_.path(), [&] { return read_experiment(file, {}, poor); });
+  ASSERT_THAT(faults, SizeIs(7));
+  EXPECT_EQ(faults[2],
+            "e.yaml:1:1: error: localizer: matcher: the default matcher 'ransam' does not exist; name "
+            "another (there are: other)");
 }
 
 }  // namespace

@@ -3,15 +3,15 @@
 #include <gtest/gtest.h>
 
 #include "config/overrides.hpp"
+#include "files.hpp"
 #include "framework/config/toy_catalog.hpp"
-#include "glocal/error.hpp"
 #include "glocal/experiment.hpp"
-#include "temporary_folder.hpp"
 
 namespace glocal::test::override_test {
 namespace {
 
 using testing::ElementsAre;
+using testing::StartsWith;
 
 class OverrideTest : public testing::Test {
  protected:
@@ -33,14 +33,7 @@ class OverrideTest : public testing::Test {
   }
 
   std::vector<std::string> faults_of(const std::vector<Override>& overrides) {
-    try {
-      static_cast<void>(read("", overrides));
-    } catch (const ConfigError& error) {
-      std::vector<std::string> lines;
-      for (const Fault& fault : error.faults()) lines.push_back(to_string(fault));
-      return lines;
-    }
-    return {};
+    return config_faults(folder_.path(), [&] { return read("", overrides); });
   }
 
   Catalog catalog_;
@@ -148,14 +141,10 @@ TEST_F(OverrideTest, ALocalizerIsReadFromValuesAlone) {
 }
 
 TEST_F(OverrideTest, EveryFaultOfALocalizersValuesIsFound) {
-  try {
-    static_cast<void>(read_localizer({{"matcher.ransam.iteration", "5"}, {"motion", "sideways"}}, catalog_));
-    FAIL() << "no fault was found";
-  } catch (const ConfigError& error) {
-    ASSERT_EQ(error.faults().size(), 2U);
-    EXPECT_EQ(error.faults()[0].file, "--set matcher.ransam.iteration=5");
-    EXPECT_EQ(error.faults()[1].file, "--set motion=sideways");
-  }
+  const std::vector<Override> wrong = {{"matcher.ransam.iteration", "5"}, {"motion", "sideways"}};
+  EXPECT_THAT(config_faults(folder_.path(), [&] { return read_localizer(wrong, catalog_); }),
+              ElementsAre(StartsWith("--set matcher.ransam.iteration=5: error: "),
+                          StartsWith("--set motion=sideways: error: ")));
 }
 
 }  // namespace

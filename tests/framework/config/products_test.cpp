@@ -6,10 +6,10 @@
 
 #include <cstdlib>
 
+#include "files.hpp"
 #include "framework/config/toy_catalog.hpp"
 #include "glocal/error.hpp"
 #include "glocal/experiment.hpp"
-#include "temporary_folder.hpp"
 
 namespace glocal::test::products_test {
 namespace {
@@ -45,16 +45,7 @@ class ProductsTest : public testing::Test {
 
   /// Keys of the experiment begin in line 3 of e.yaml.
   std::string faults_of(const std::string& text, const std::vector<Override>& overrides = {}) {
-    try {
-      static_cast<void>(read(text, overrides));
-    } catch (const ConfigError& error) {
-      std::string all = error.what();
-      const std::string prefix = folder_.path().string() + "/";
-      for (std::size_t at = all.find(prefix); at != std::string::npos; at = all.find(prefix, at))
-        all.erase(at, prefix.size());
-      return all;
-    }
-    return "";
+    return config_error(folder_.path(), [&] { return read(text, overrides); });
   }
 
   static int iterations(const Variant& variant) {

@@ -10,10 +10,9 @@
 #include <cmath>
 #include <map>
 
+#include "files.hpp"
 #include "framework/config/toy_catalog.hpp"
-#include "glocal/error.hpp"
 #include "glocal/experiment.hpp"
-#include "temporary_folder.hpp"
 
 namespace glocal::test::sample_test {
 namespace {
@@ -45,14 +44,7 @@ class SampleTest : public testing::Test {
   }
 
   std::vector<std::string> faults_of(const std::string& sample) {
-    std::vector<std::string> lines;
-    try {
-      static_cast<void>(read(sample));
-    } catch (const ConfigError& error) {
-      for (const Fault& fault : error.faults())
-        lines.push_back(to_string(fault).substr(folder_.path().string().size() + 1));
-    }
-    return lines;
+    return config_faults(folder_.path(), [&] { return read(sample); });
   }
 
   /// How often each value was drawn for a path.
@@ -88,11 +80,10 @@ TEST_F(SampleTest, PointsHaveNumbersForNames) {
 
 TEST_F(SampleTest, SobolPointsFillEachRangeEvenly) {
   for (const char* seed : {"1", "2", "18446744073709551615"}) {
-    const auto all = read(
-        fmt::format("{{count: 64, seed: {}, ranges: {{{}: [5, 68], {}: [0.5, 64.5], "
-                    "observations.toy_drive.mode: {{choices: "
-                    "[fast, slow]}}, observations.toy_drive.salt: {{from: 1, to: 255, scale: log}}}}}}\n",
-                    seed, iterations, epsilon));
+    const auto all = read(fmt::format(
+        "{{count: 64, seed: {}, ranges: {{{}: [5, 68], {}: [0.5, 64.5], observations.toy_drive.mode: "
+        "{{choices: [fast, slow]}}, observations.toy_drive.salt: {{from: 1, to: 255, scale: log}}}}}}\n",
+        seed, iterations, epsilon));
     // As many whole numbers as points: each of them once.
     const auto whole = counts(all, iterations);
     EXPECT_EQ(whole.size(), 64U);
@@ -192,34 +183,25 @@ TEST_F(SampleTest, BadRangesAreRefusedAtTheirPlace) {
           "e.yaml:8:42: error: variants.sample: " + iterations + ": to: must be above from",
           "e.yaml:9:44: error: variants.sample: localizer.contact_epsilon: to: must be above from",
           "e.yaml:10:31: error: variants.sample: observations.toy_drive.salt: from: 1.5 is not a whole "
-          "number; "
-          "write it without point and exponent",
+          "number; write it without point and exponent",
           "e.yaml:11:44: error: variants.sample: observations.toy_drive.noise.range: from: must be above 0 "
-          "where "
-          "the scale is log",
+          "where the scale is log",
           "e.yaml:12:37: error: variants.sample: observations.toy_drive.noise.beams: missing key 'to': an "
-          "end of "
-          "the range",
+          "end of the range",
           "e.yaml:12:54: error: variants.sample: observations.toy_drive.noise.beams: scale: 'ln' is not one "
-          "of "
-          "linear, log",
+          "of linear, log",
           "e.yaml:12:58: error: variants.sample: observations.toy_drive.noise.beams: unknown key 'step' "
           "(known keys: from, to, scale)",
           "e.yaml:13:31: error: variants.sample: observations.toy_drive.label: expected {choices: [a, b]}, "
-          "as the "
-          "values are not numbers (text)",
+          "as the values are not numbers (text)",
           "e.yaml:14:40: error: variants.sample: observations.toy_drive.loop: choices: expected a list of "
-          "values, "
-          "got 0 items",
+          "values, got 0 items",
           "e.yaml:15:48: error: variants.sample: observations.toy_drive.mode: choices stand alone; leave "
-          "'from' "
-          "out",
+          "'from' out",
           "e.yaml:16:17: error: variants.sample: trials.every_m: expected [from, to], {from: a, to: b, "
-          "scale: log} "
-          "or {choices: [a, b]}, got 3 items",
+          "scale: log} or {choices: [a, b]}, got 3 items",
           "e.yaml:17:10: error: variants.sample: threads: expected [from, to], {from: a, to: b, scale: log} "
-          "or "
-          "{choices: [a, b]}, got '5'",
+          "or {choices: [a, b]}, got '5'",
           "e.yaml:18:44: error: variants.sample: " + epsilon + ": from: 0 is out of range, must be > 0 m",
           "e.yaml:19:1: error: variants.sample: 'seeds' is the same for all variants and cannot be changed"));
 }
@@ -235,10 +217,9 @@ TEST_F(SampleTest, CountAndRangesBelongTogetherAndHaveLimits) {
           "e.yaml:7:19: error: variants.sample: count: 10001 is out of range, must be >= 0 and <= 10000"));
   std::string ranges;
   for (int i = 0; i < 3668; ++i) ranges += (i == 0 ? "a" : ", a") + std::to_string(i) + ": [0, 1]";
-  EXPECT_THAT(
-      faults_of("{count: 3, ranges: {" + ranges + "}}\n"),
-      ElementsAre("e.yaml:7:30: error: variants.sample: 3668 ranges, but Sobol's sequence has at most 3667 "
-                  "dimensions here; leave some out, or draw at random with sobol: false"));
+  EXPECT_THAT(faults_of("{count: 3, ranges: {" + ranges + "}}\n"),
+              ElementsAre("e.yaml:7:30: error: variants.sample: 3668 ranges, but Sobol's sequence has at "
+                          "most 3667 dimensions here; leave some out, or draw at random with sobol: false"));
   EXPECT_THAT(faults_of("{count: 1, ranges: {nowhere.at_all: [0, 1]}}\n"),
               ElementsAre(testing::HasSubstr("e.yaml:7:31: error: unknown key 'nowhere'")));
 }

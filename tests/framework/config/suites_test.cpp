@@ -8,10 +8,9 @@
 #include <cstdlib>
 #include <set>
 
+#include "files.hpp"
 #include "framework/config/toy_catalog.hpp"
-#include "glocal/error.hpp"
 #include "glocal/experiment.hpp"
-#include "temporary_folder.hpp"
 
 namespace glocal::test::suites_test {
 namespace {
@@ -59,12 +58,7 @@ class SuitesTest : public testing::Test {
   }
 
   std::string faults_of(const std::string& suite, const std::vector<Override>& more = {}) {
-    try {
-      static_cast<void>(read(suite, more));
-    } catch (const ConfigError& error) {
-      return error.what();
-    }
-    return "";
+    return error_of([&] { return read(suite, more); });
   }
 
   Catalog catalog_;

@@ -4,10 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "files.hpp"
 #include "framework/config/toy_catalog.hpp"
-#include "glocal/error.hpp"
 #include "glocal/experiment.hpp"
-#include "temporary_folder.hpp"
 
 namespace glocal::test::variants_test {
 namespace {
@@ -36,17 +35,7 @@ class VariantsTest : public testing::Test {
 
   std::vector<std::string> faults_of(const std::string& variants,
                                      const std::vector<Override>& overrides = {}) {
-    std::vector<std::string> lines;
-    try {
-      static_cast<void>(read(variants, overrides));
-    } catch (const ConfigError& error) {
-      const std::string folder = folder_.path().string() + "/";
-      for (const Fault& fault : error.faults()) {
-        const std::string line = to_string(fault);
-        lines.push_back(line.starts_with(folder) ? line.substr(folder.size()) : line);
-      }
-    }
-    return lines;
+    return config_faults(folder_.path(), [&] { return read(variants, overrides); });
   }
 
   static std::vector<std::string> names(const std::vector<Variant>& variants) {

@@ -5,9 +5,9 @@
 
 #include <stdexcept>
 
+#include "files.hpp"
 #include "framework/config/toy_catalog.hpp"
 #include "glocal/error.hpp"
-#include "temporary_folder.hpp"
 
 namespace glocal::test::plugin_loader_test {
 namespace {
@@ -33,12 +33,7 @@ class PluginLoaderTest : public testing::Test {
   /// What load() says of a file that is read like this.
   std::string fault_of(const PluginLoader::LoadOther& load) {
     loader_.hand_over(".toy", load);
-    try {
-      loader_.load(file_);
-    } catch (const ConfigError& error) {
-      return error.what();
-    }
-    return "";
+    return error_of([&] { loader_.load(file_); });
   }
 
   TemporaryFolder folder_;

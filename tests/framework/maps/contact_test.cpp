@@ -1,6 +1,6 @@
 #include "glocal/contact.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
 #include <limits>
@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "glocal/error.hpp"
+#include "files.hpp"
 #include "glocal/rng.hpp"
 #include "instruction_sets.hpp"
 #include "test_world.hpp"
@@ -244,12 +244,8 @@ TEST(BitsetContact, RefusesToFillTheMemory) {
   Points points;
   points.push_back({0.0F, 0.0F, 0.0F});
   points.push_back({1e6F, 1e6F, 0.0F});
-  try {
-    const BitsetContact grid(points, 0.01);
-    FAIL();
-  } catch (const ConfigError& e) {
-    EXPECT_NE(std::string(e.what()).find("larger contact_epsilon"), std::string::npos) << e.what();
-  }
+  EXPECT_THAT(test::error_of([&] { return BitsetContact(points, 0.01); }),
+              testing::HasSubstr("larger contact_epsilon"));
 }
 
 /// Single precision is good to 3 cm at 500 km, and to 1 m at 1e7 m.

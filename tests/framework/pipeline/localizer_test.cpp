@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "files.hpp"
 #include "framework/pipeline/fakes.hpp"
 #include "glocal/error.hpp"
 #include "glocal/parallel.hpp"
@@ -227,12 +228,7 @@ TEST_F(LocalizerTest, ATrialDrawsTheSameNumbersWheneverItRuns) {
 
 /// What a step fails with; empty if it does not.
 std::string failure_of(Localizer& localizer) {
-  try {
-    static_cast<void>(localizer.step({}));
-  } catch (const StrategyError& error) {
-    return error.what();
-  }
-  return "";
+  return error_of<StrategyError>([&] { return localizer.step({}); });
 }
 
 TEST_F(LocalizerTest, NamesTheStrategyThatBreaksItsContract) {
@@ -308,15 +304,9 @@ TEST_F(LocalizerTest, AStageThatCannotDoTheMotionIsRefused) {
     const Localizer localizer(config, catalog_, {map_of_one_point(), 1}, 1);
   };
   EXPECT_NO_THROW(make_with(Motion::planar));
-  try {
-    make_with(Motion::free);
-    FAIL();
-  } catch (const ConfigError& error) {
-    EXPECT_STREQ(
-        error.what(),
-        "error: the rater 'flat' can do the motion planar, not free; set localizer.motion to planar, or "
-        "take fake");
-  }
+  EXPECT_EQ(error_of([&] { make_with(Motion::free); }),
+            "error: the rater 'flat' can do the motion planar, not free; set localizer.motion to planar, or "
+            "take fake");
 }
 
 TEST_F(LocalizerTest, PosesInSpaceGoAllTheWay) {
@@ -425,13 +415,8 @@ TEST_F(WithPrior, InAnUnknownPlaceTheRobotIsPerhapsOutsideOfIt) {
 
 TEST_F(WithPrior, ARegionOffTheMapIsRefused) {
   EXPECT_NO_THROW(static_cast<void>(make_with(around(-90, 0))));
-  try {
-    static_cast<void>(make_with(around(300, 0)));
-    FAIL();
-  } catch (const ConfigError& error) {
-    EXPECT_THAT(error.what(),
-                testing::HasSubstr("localizer.prior.region: the map has nothing within 1 m of x 300"));
-  }
+  EXPECT_THAT(error_of([&] { return make_with(around(300, 0)); }),
+              testing::HasSubstr("localizer.prior.region: the map has nothing within 1 m of x 300"));
 }
 
 /// Writes down what it is made with.

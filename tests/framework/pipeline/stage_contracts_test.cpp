@@ -6,6 +6,8 @@
 #include <functional>
 #include <limits>
 
+#include "files.hpp"
+
 namespace glocal::test::stage_contracts_test {
 namespace {
 
@@ -201,12 +203,8 @@ TEST(StageContracts, PosesInSpaceHavePlacesAndRotations) {
 
 TEST(StageContracts, WhereTheMotionIsPlanarSoAreAllPoses) {
   const auto broken = [](const Pose3& pose, Motion motion) {
-    try {
-      check_hypotheses({Hypothesis::by_contact(pose, 0.8)}, 0.5, motion);
-    } catch (const BrokenContract& contract) {
-      return std::string(contract.what());
-    }
-    return std::string();
+    return error_of<BrokenContract>(
+        [&] { check_hypotheses({Hypothesis::by_contact(pose, 0.8)}, 0.5, motion); });
   };
   const Pose3 raised(Vector3{1, 2, 0.5});
   const Pose3 tilted({1, 2, 0}, exponential({0, 0.1, 0}));
@@ -240,14 +238,9 @@ TEST(StageContracts, WhatThereIsOnlyOneOfHasNoNumber) {
   MapData map;
   map.points.push_back({1.0F, 2.0F, 0.0F});
   map.grid.map_from_grid.x = 2e7;
-  try {
-    check_map(map, Motion::planar);
-    FAIL();
-  } catch (const BrokenContract& contract) {
-    EXPECT_STREQ(contract.what(),
-                 "the grid has the pose (20000000, 0, 0); poses are finite, and at most 10000000 m from the "
-                 "origin along x, y and z");
-  }
+  EXPECT_EQ(error_of<BrokenContract>([&] { check_map(map, Motion::planar); }),
+            "the grid has the pose (20000000, 0, 0); poses are finite, and at most 10000000 m from the "
+            "origin along x, y and z");
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "files.hpp"
 #include "framework/pipeline/fakes.hpp"
 #include "glocal/error.hpp"
 #include "glocal/localizer.hpp"
@@ -288,14 +289,8 @@ TEST_F(WithVerifier, TheVerifierIsAskedOfTheLocalMapsPose) {
 
 TEST_F(WithVerifier, NamesAVerifierThatBreaksItsContract) {
   find({1.5});
-  try {
-    step();
-    FAIL();
-  } catch (const StrategyError& error) {
-    EXPECT_STREQ(
-        error.what(),
-        "verifier 'fake' breaks its contract in step 0: hypothesis 0 has the quality 1.5, not in [0, 1]");
-  }
+  EXPECT_EQ(error_of<StrategyError>([&] { return step(); }),
+            "verifier 'fake' breaks its contract in step 0: hypothesis 0 has the quality 1.5, not in [0, 1]");
 }
 
 }  // namespace

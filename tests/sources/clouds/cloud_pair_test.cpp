@@ -5,7 +5,6 @@
 
 #include "evaluation/results/pcd.hpp"
 #include "files.hpp"
-#include "glocal/error.hpp"
 
 namespace glocal::clouds::cloud_pair_test {
 namespace {
@@ -52,12 +51,9 @@ TEST_F(CloudPairTest, HasTheSourceAsItsOnlyScan) {
 }
 
 TEST_F(CloudPairTest, RefusesAPairThatIsNotThere) {
-  try {
-    const CloudPairScan scan({{list_, 3}}, setup_);
-    FAIL();
-  } catch (const ConfigError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("pairs.csv: error: has 2 pairs, and no pair 3"));
-  }
+  const CloudPairScan::Params third = {{list_, 3}};
+  EXPECT_THAT(test::error_of([&] { CloudPairScan(third, setup_); }),
+              testing::HasSubstr("pairs.csv: error: has 2 pairs, and no pair 3"));
 }
 
 }  // namespace

@@ -2,9 +2,8 @@
 
 #include <gmock/gmock.h>
 
-#include "glocal/error.hpp"
+#include "files.hpp"
 #include "sources/conversion/carmen_drive.hpp"
-#include "temporary_folder.hpp"
 
 namespace glocal::conversion::drive_track_test {
 namespace {
@@ -30,12 +29,7 @@ class DriveTracks : public testing::Test {
     return references.map_from_robot(nanoseconds_of(stamp), {});
   }
   [[nodiscard]] std::string fault_of(const std::string& corrected) const {
-    try {
-      static_cast<void>(pose_at(corrected, 1.5));
-    } catch (const ConfigError& error) {
-      return error.what();
-    }
-    return "";
+    return test::error_of([&] { return pose_at(corrected, 1.5); });
   }
 
   test::TemporaryFolder folder_;
