@@ -72,8 +72,7 @@ TEST_F(RunCommand, TellsOfAnExperimentThatCanNeverDeclare) {
   const std::string one_step = "--set trials.max_steps=1";
   const std::string why =
       "no trial can end with a declared pose: the verdict rule 'consecutive_rating' declares none before "
-      "step 3, "
-      "and no trial has more than 1.";
+      "step 3, and no trial has more than 1.";
   EXPECT_THAT(run_room("a", one_step).err, HasSubstr(why));
   EXPECT_THAT(run("check " + file("room.yaml") + " " + one_step).err, HasSubstr(why));
   EXPECT_THAT(run("check " + file("room.yaml")).err, Not(HasSubstr("no trial can end")));

@@ -201,18 +201,16 @@ TEST_F(Submit, TellsWhatGnuParallelHasNotDone) {
 
 TEST_F(Submit, CtrlCEndsAllInGoodOrder) {
   // It reaches the script and glocal, which has started it.
-  pretend(
-      "parallel",
-      "[ $1 = --version ] && echo GNU parallel 20221122 && exit; read -r _ _ _ glocal _ </proc/$PPID/stat; "
-      "kill -INT $PPID $glocal");
+  pretend("parallel",
+          "[ $1 = --version ] && echo GNU parallel 20221122 && exit; read -r _ _ _ glocal _ "
+          "</proc/$PPID/stat; kill -INT $PPID $glocal");
   EXPECT_THAT(refusal(submit("--parallel"), 3), Not(HasSubstr("missing"))) << "nothing is merged";
 }
 
 TEST_F(Submit, GnuParallelRunsWhatAnExperimentHasGotSince) {
   pretend("parallel",
           "[ $1 = --version ] && echo GNU parallel 20221122 && exit; [ -f joblog ] || { sh shard.sh 1; sh "
-          "shard.sh 2; }; "
-          ">joblog");
+          "shard.sh 2; }; >joblog");
   write_experiment("trials: {every_scan: 2, max_steps: 6}\n", "seeds: [1]\n");
   good(submit("--parallel --shards 2"));
   write_experiment("trials: {every_scan: 2, max_steps: 6}\n", "seeds: [1, 2]\n");

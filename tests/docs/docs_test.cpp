@@ -566,13 +566,11 @@ TEST_F(DocsExamples, WhatCompareWritesIsDescribed) {
 TEST_F(DocsExamples, WhatSweepWritesIsDescribed) {
   const fs::path document = root / "docs/file-formats.md";
   save_examples(document);
-  good(run(
-      "run configs/experiments/room.yaml --quiet --out a --set trials.max_steps=1 --set trials.whole=false "
-      "--set "
-      "trials.every_scan=9 --set output.steps=false --set 'choose_on={near: {}}' --set 'judge_on={far: {}}' "
-      "--set "
-      "'variants.grid={localizer.matcher.ransam.iterations: [100, 20000], localizer.contact_epsilon: [0.1, "
-      "0.2]}'"));
+  good(
+      run("run configs/experiments/room.yaml --quiet --out a --set trials.max_steps=1 --set "
+          "trials.whole=false --set trials.every_scan=9 --set output.steps=false --set 'choose_on={near: "
+          "{}}' --set 'judge_on={far: {}}' --set 'variants.grid={localizer.matcher.ransam.iterations: [100, "
+          "20000], localizer.contact_epsilon: [0.1, 0.2]}'"));
   const Answer answer = good(run("sweep a --json"));
   nlohmann::json json = nlohmann::json::parse(answer.out);
   ASSERT_TRUE(json.contains("chance"));

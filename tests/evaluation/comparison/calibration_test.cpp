@@ -223,8 +223,7 @@ TEST(Calibration, PrintsItsTable) {
   const RealCases cases = read_outcomes();
   fmt::print(
       "| compared | places × seeds | p < 0.05: right | steps | right, after Holm | McNemar's, of trials, "
-      "after Holm | "
-      "interval holds: right | steps |\n|---|---|---:|---:|---:|---:|---:|---:|\n");
+      "after Holm | interval holds: right | steps |\n|---|---|---:|---:|---:|---:|---:|---:|\n");
   const std::vector<std::pair<const char*, Scenario>> scenarios = {
       {"a method with itself", itself()},
       {"with an effect put in", with_effect()},

@@ -160,8 +160,7 @@ TEST_F(Recordings, ThatAreDamagedBehindSomethingWholeAreReadUpToThere) {
   EXPECT_THAT(content(recording), ElementsAre("1000000000 /a one"));
   EXPECT_THAT(recording.warnings(),
               ElementsAre(AllOf(HasSubstr("byte " + std::to_string(whole.size()) +
-                                          ": a record's header of "
-                                          "528281152 bytes is announced"),
+                                          ": a record's header of 528281152 bytes is announced"),
                                 HasSubstr("what comes before it is read: " + std::to_string(whole.size()) +
                                           " of " + std::to_string(bag.size()) + " bytes"))));
   EXPECT_THAT(strict_fault(), HasSubstr("a record's header of 528281152 bytes is announced"));
@@ -227,8 +226,7 @@ TEST_F(Recordings, WithIndexesBehindTheirChunksAreNotUnpackedForTheirNames) {
 TEST_F(Recordings, OfOtherKindsAreRefused) {
   EXPECT_EQ(fault("#ROSRECORD V1.2\n"),
             "file: error: byte 0: is a bag of ROS 1 that begins with '#ROSRECORD V1.2'; only version 2.0 can "
-            "be read: "
-            "convert it with ROS (rosbag fix)");
+            "be read: convert it with ROS (rosbag fix)");
   EXPECT_THAT(fault(ros1_magic + ros1_bag_header({{"encryptor", "rosbag/AesCbcEncryptor"}})),
               HasSubstr("the bag is encrypted (rosbag/AesCbcEncryptor); decrypt it with ROS"));
   EXPECT_THAT(fault("FLASER 3 1 1 1"), HasSubstr("begins like no recording"));
@@ -246,11 +244,9 @@ void write_db3(const std::filesystem::path& file, int n) {
   const std::string at = std::to_string(n);
   const std::string sql =
       "CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT NOT NULL, type TEXT NOT NULL, "
-      "serialization_format TEXT "
-      "NOT NULL);"
+      "serialization_format TEXT NOT NULL);"
       "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER NOT NULL, timestamp INTEGER NOT NULL, "
-      "data BLOB "
-      "NOT NULL);"
+      "data BLOB NOT NULL);"
       "INSERT INTO topics VALUES(1, '/a', 'x/msg/A', 'cdr');"
       "INSERT INTO messages VALUES(1, 1, " +
       at + "2, 'b'), (2, 1, " + at + "1, 'a');";

@@ -120,19 +120,16 @@ TEST(CarmenParser, RefusesAbsurdCounts) {
               std::string("a.log:1: error: FLASER number of readings: ") + count +
                   " is out of range, must be 2 to 100000" + again);
   }
-  EXPECT_EQ(
-      fault_of("ROBOTLASER1 0 -1 2 0 30 0.01 0 1 1 0 0 0 0 0 0 0 0 0 0 0 0 1 h 0\n"),
-      std::string(
-          "a.log:1: error: ROBOTLASER1 angular resolution: must be above 0 rad and keep all readings within "
-          "a full turn") +
-          again);
+  EXPECT_EQ(fault_of("ROBOTLASER1 0 -1 2 0 30 0.01 0 1 1 0 0 0 0 0 0 0 0 0 0 0 0 1 h 0\n"),
+            std::string("a.log:1: error: ROBOTLASER1 angular resolution: must be above 0 rad and keep all "
+                        "readings within a full turn") +
+                again);
 }
 
 TEST(CarmenParser, SaysWhereALogIsCutOff) {
   EXPECT_EQ(fault_of("FLASER 2 1 1 0 0 0 0 0 0 1 h 0\nFLASER 2 1 1 0 0"),
             "a.log:2: error: FLASER says 2 readings but has room for 0 (6 fields, 13 needed); the log is cut "
-            "off here: "
-            "delete this line or get a fresh copy");
+            "off here: delete this line or get a fresh copy");
 }
 
 TEST(CarmenParser, StopsAfterTwentyFaults) {

@@ -80,8 +80,7 @@ TEST(Pgm, RefusesWhatIsNoWholeImage) {
   EXPECT_EQ(fault_of("P5 2 2 65536\n"), "a.image: error: maximum grey must be 1 to 65535, not 65536");
   EXPECT_EQ(fault_of("P5 100000 100000 255\n"),
             "a.image: error: is too large to hold (100000 x 100000 pixels, at most 1000 million); crop it or "
-            "lower its "
-            "resolution");
+            "lower its resolution");
   EXPECT_EQ(fault_of("P5 99999999999999 1 255\n").substr(0, 40), "a.image: error: is too large to hold (21");
   const std::string other =
       "a.image: error: is neither a PGM (P2, P5) nor a PNG image; convert it to one of these";

@@ -60,8 +60,7 @@ TEST(World, PeopleWalkToAndFro) {
 TEST(World, RefusesAWayThroughAWall) {
   EXPECT_EQ(fault_of(std::string(room) + "rectangles: [{centre: [3, 1], size: [1, 1]}]\n"),
             "world.yaml: error: way_points[1]: the way from [1, 1] to [5, 1] meets a wall or thing, or has "
-            "no length; move "
-            "the way point or the thing");
+            "no length; move the way point or the thing");
   EXPECT_EQ(fault_of(std::string(room) + "rectangles: [{centre: [3, 1], size: [1, 1], in_reality: false}]\n"),
             "");
 }
