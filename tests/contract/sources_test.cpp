@@ -4,15 +4,10 @@
 #include "config/writer.hpp"
 #include "contract/strategies.hpp"
 #include "glocal/yaml.hpp"
+#include "samples.hpp"
 
 namespace glocal::test::sources_test {
 namespace {
-
-std::vector<Sample> all_of(ObservationSource& source) {
-  std::vector<Sample> samples;
-  while (auto sample = source.next()) samples.push_back(std::move(*sample));
-  return samples;
-}
 
 TEST_F(Contract, ARecordingIsReadBackAsTheDriveItself) {
   std::size_t recorded = 0;

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "files.hpp"
 #include "local_mappers/lidar_odometry.hpp"
+#include "samples.hpp"
 #include "sources/simulation/lidar_simulation.hpp"
 #include "sources/simulation/scene.hpp"
 
@@ -44,9 +44,7 @@ class FastDrive : public testing::Test {
 
   [[nodiscard]] std::vector<Sample> samples() const {
     simulation::LidarSimulation source(params_, {});
-    std::vector<Sample> all;
-    while (auto sample = source.next()) all.push_back(*std::move(sample));
-    return all;
+    return test::all_of(source);
   }
 
   struct Drift {

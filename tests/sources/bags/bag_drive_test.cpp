@@ -8,6 +8,7 @@
 
 #include "files.hpp"
 #include "glocal/distance_field.hpp"
+#include "samples.hpp"
 #include "sources/bags/message_writer.hpp"
 #include "sources/ros_map/ros_map.hpp"
 
@@ -41,10 +42,7 @@ class Bags : public testing::Test {
     params_.path = file_path(folder_.write("drive.mcap", recording_.bytes()));
     BagDrive source(params_,
                     {.motion = motion, .warn = [&](const std::string& text) { warnings_.push_back(text); }});
-    std::vector<Sample> samples;
-    while (auto sample = source.next()) samples.push_back(std::move(*sample));
-    EXPECT_FALSE(source.next());
-    return samples;
+    return all_of(source);
   }
   std::string fault() {
     return config_error(folder_.path(), [&] { read(); });

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "files.hpp"
+#include "samples.hpp"
 
 namespace glocal::carmen::carmen_log_test {
 namespace {
@@ -34,10 +35,7 @@ LogParams params_for(const std::filesystem::path& file) {
 
 std::vector<Sample> read_all(const LogParams& params, const SourceSetup& setup = {}) {
   CarmenLog log(params, setup);
-  std::vector<Sample> samples;
-  while (auto sample = log.next()) samples.push_back(*std::move(sample));
-  EXPECT_FALSE(log.next());
-  return samples;
+  return test::all_of(log);
 }
 
 std::vector<double> stamps(const std::vector<Sample>& samples) {

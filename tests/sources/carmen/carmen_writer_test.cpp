@@ -3,18 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "files.hpp"
+#include "samples.hpp"
 #include "sources/carmen/carmen_log.hpp"
 #include "sources/simulation/simulation.hpp"
 
 namespace glocal::carmen::carmen_writer_test {
 namespace {
-
-template <class Source>
-std::vector<Sample> read_all(Source& source) {
-  std::vector<Sample> samples;
-  while (auto sample = source.next()) samples.push_back(*std::move(sample));
-  return samples;
-}
 
 void expect_near(const Points& a, const Points& b) {
   ASSERT_EQ(a.size(), b.size());
@@ -52,8 +46,8 @@ TEST(CarmenWriter, ASimulatedDriveReadsBackAsItWas) {
   log.path = test::file_path(folder.write("drive.log", lines));
   CarmenLog recorded(log, setup);
   simulation::Simulation simulated(params, setup);
-  const auto a = read_all(simulated);
-  const auto b = read_all(recorded);
+  const auto a = test::all_of(simulated);
+  const auto b = test::all_of(recorded);
   ASSERT_EQ(a.size(), b.size());
   EXPECT_FALSE(a[0].observation.scan.free_ends.empty());
   for (std::size_t i = 0; i < a.size(); ++i) {

@@ -9,6 +9,7 @@
 #include "evaluation/results/pcd.hpp"
 #include "files.hpp"
 #include "glocal/yaml.hpp"
+#include "samples.hpp"
 #include "sources/clouds/cloud_file.hpp"
 
 namespace glocal::clouds::cloud_drive_test {
@@ -35,10 +36,7 @@ class CloudDriveTest : public testing::Test {
   std::vector<Sample> read() {
     const SourceSetup setup{.note_input = [&](const auto& file) { inputs_.push_back(file.filename()); }};
     CloudDrive drive(params_, setup);
-    std::vector<Sample> samples;
-    while (auto sample = drive.next()) samples.push_back(*std::move(sample));
-    EXPECT_FALSE(drive.next());
-    return samples;
+    return test::all_of(drive);
   }
   static void expect_near(const Pose3& a, const Pose3& b) {
     EXPECT_NEAR(distance(a, b), 0.0, 1e-9);

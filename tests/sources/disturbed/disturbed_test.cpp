@@ -8,7 +8,8 @@
 #include <string_view>
 
 #include "config/text_file.hpp"
-#include "glocal/error.hpp"
+#include "files.hpp"
+#include "samples.hpp"
 #include "sources/disturbed/disturbed_drive.hpp"
 #include "sources/disturbed/disturbed_map.hpp"
 #include "sources/disturbed/map_disturbances.hpp"
@@ -67,10 +68,7 @@ class Disturbed : public testing::Test {
 
   std::vector<Sample> drive(std::vector<ChosenDisturbance> by, std::uint64_t seed = 1) const {
     DisturbedDrive source({&drives_, drives_.choose("standing"), std::move(by)}, {.seed = seed});
-    std::vector<Sample> samples;
-    while (auto sample = source.next()) samples.push_back(*std::move(sample));
-    EXPECT_FALSE(source.next());
-    return samples;
+    return test::all_of(source);
   }
   MapData map(std::vector<ChosenMapDisturbance> by, std::uint64_t seed = 1) const {
     return DisturbedMap({&maps_, maps_.choose("room"), std::move(by)}, {.seed = seed}).load();
@@ -104,13 +102,8 @@ TEST_F(Disturbed, TheSameSeedIsTheSameDrive) {
 TEST_F(Disturbed, ADriveOfWhichNothingIsLeftIsRefused) {
   const std::vector<ChosenDisturbance> by = {{{"short_range", 5, {}}}};
   DisturbedDrive source({&drives_, drives_.choose("standing"), by}, {});
-  try {
-    while (source.next()) {
-    }
-    FAIL() << "it is not refused";
-  } catch (const ConfigError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("nothing of what the source has measured is left"));
-  }
+  EXPECT_THAT(test::error_of([&] { return test::all_of(source); }),
+              HasSubstr("nothing of what the source has measured is left"));
 }
 
 TEST_F(Disturbed, FurnitureIsTakenOrMovedAndWallsStay) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "framework/pipeline/fakes.hpp"
+#include "samples.hpp"
 
 namespace glocal::several::several_drives_test {
 namespace {
@@ -30,10 +31,7 @@ std::vector<Sample> driven(bool in_lift, std::vector<std::vector<Sample>> drives
     params.drives.push_back({&sources, "floor " + std::to_string(i), sources.choose(name)});
   }
   SeveralDrives source(params, SourceSetup{});
-  std::vector<Sample> samples;
-  while (auto s = source.next()) samples.push_back(*std::move(s));
-  EXPECT_FALSE(source.next());
-  return samples;
+  return test::all_of(source);
 }
 
 std::vector<std::vector<Sample>> two_drives() {

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <numbers>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "evaluation/results/pcd.hpp"
@@ -15,6 +14,7 @@
 #include "glocal/catalog.hpp"
 #include "glocal/yaml.hpp"
 #include "octree_files.hpp"
+#include "samples.hpp"
 #include "sources/simulation/lidar.hpp"
 #include "sources/simulation/scene.hpp"
 #include "sources/simulation/simulation.hpp"
@@ -44,13 +44,8 @@ class LidarDrive : public testing::Test {
   }
 
   [[nodiscard]] std::vector<Sample> read_all(std::uint64_t seed = 1) const {
-    SourceSetup setup;
-    setup.seed = seed;
-    LidarSimulation source(params_, setup);
-    std::vector<Sample> samples;
-    while (auto sample = source.next()) samples.push_back(*std::move(sample));
-    EXPECT_FALSE(source.next());
-    return samples;
+    LidarSimulation source(params_, {.seed = seed});
+    return test::all_of(source);
   }
 
   /// What is wrong with a drive's parameters or world; empty if nothing is.
@@ -210,8 +205,7 @@ TEST_F(LidarDrive, OdometryIsThatOfThePlaneWithGravity) {
   LaserDriveParams laser;
   static_cast<DriveParams&>(laser) = params_;
   Simulation simulation(laser, {.seed = 1});
-  std::vector<Sample> planar;
-  while (auto sample = simulation.next()) planar.push_back(*std::move(sample));
+  const auto planar = test::all_of(simulation);
   params_.lidar.beams = 2;
   const auto spatial = read_all();
   ASSERT_EQ(planar.size(), spatial.size());

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "files.hpp"
+#include "samples.hpp"
 #include "sources/plan.hpp"
 
 namespace glocal::simulation::random_scans_test {
@@ -28,9 +29,7 @@ std::string fault_of(const RandomScans::Params& params, const test::Plan& plan) 
 
 std::vector<Sample> read_all(const RandomScans::Params& params, std::uint64_t seed = 1) {
   RandomScans source(params, {.seed = seed});
-  std::vector<Sample> samples;
-  while (auto sample = source.next()) samples.push_back(*std::move(sample));
-  return samples;
+  return test::all_of(source);
 }
 
 TEST(RandomScans, LieInFreeCellsFarEnoughFromOthers) {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "files.hpp"
+#include "samples.hpp"
 
 namespace glocal::simulation::simulation_test {
 namespace {
@@ -32,13 +33,8 @@ LaserDriveParams exact(const std::filesystem::path& world) {
 }
 
 std::vector<Sample> read_all(const LaserDriveParams& params, std::uint64_t seed = 1) {
-  SourceSetup setup;
-  setup.seed = seed;
-  Simulation simulation(params, setup);
-  std::vector<Sample> samples;
-  while (auto sample = simulation.next()) samples.push_back(*std::move(sample));
-  EXPECT_FALSE(simulation.next());
-  return samples;
+  Simulation simulation(params, {.seed = seed});
+  return test::all_of(simulation);
 }
 
 void expect_near(const Pose3& a, const Pose2& b) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "files.hpp"
+#include "samples.hpp"
 
 namespace glocal::test::office_test {
 namespace {
@@ -15,12 +16,8 @@ std::vector<Sample> drive_in(double side, std::uint64_t number, std::uint64_t se
   params.side = side;
   params.length = 20.0;
   params.number = number;
-  SourceSetup setup;
-  setup.seed = seed;
-  sites::OfficeDrive drive(params, setup);
-  std::vector<Sample> samples;
-  while (auto sample = drive.next()) samples.push_back(*sample);
-  return samples;
+  sites::OfficeDrive drive(params, {.seed = seed});
+  return all_of(drive);
 }
 
 MapData map_of(double side, std::uint64_t number) {
