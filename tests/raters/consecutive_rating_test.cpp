@@ -3,8 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "raters/kinds.hpp"
+
 namespace glocal::raters::consecutive_rating_test {
 namespace {
+
+using enum VerdictKind;
+using test::kinds;
+using testing::ElementsAre;
 
 struct Rated {
   Pose2 pose;
@@ -30,31 +36,27 @@ const Rated poor{{8.0, 1.0, 2.0}, 0.1};
 
 TEST(ConsecutiveRating, LocalizedInTheThirdConsecutiveStep) {
   ConsecutiveRating rule({});
-  EXPECT_EQ(rule.judge(step({good, poor})).kind, VerdictKind::searching);
-  EXPECT_EQ(rule.judge(step({good, poor})).kind, VerdictKind::searching);
+  EXPECT_THAT(kinds(rule, std::vector(2, step({good, poor}))), ElementsAre(searching, searching));
   const Verdict verdict = rule.judge(step({good, poor}));
-  EXPECT_EQ(verdict.kind, VerdictKind::localized);
+  EXPECT_EQ(verdict.kind, localized);
   EXPECT_EQ(verdict.map_from_robot, good.pose);
-  EXPECT_EQ(rule.judge(step({good, poor})).kind, VerdictKind::localized);
+  EXPECT_EQ(rule.judge(step({good, poor})).kind, localized);
 }
 
 TEST(ConsecutiveRating, TheRatingMustBeLarger) {
   ConsecutiveRating rule({});
   for (int i = 0; i < 5; ++i) {
-    EXPECT_NE(rule.judge(step({{good.pose, 0.8}, {poor.pose, 0.2}})).kind, VerdictKind::localized);
+    EXPECT_NE(rule.judge(step({{good.pose, 0.8}, {poor.pose, 0.2}})).kind, localized);
   }
 }
 
 TEST(ConsecutiveRating, AStepWithoutClustersResetsTheCount) {
   ConsecutiveRating rule({});
-  (void)rule.judge(step({good}));
-  (void)rule.judge(step({good}));
+  EXPECT_THAT(kinds(rule, std::vector(2, step({good}))), ElementsAre(searching, searching));
   const Verdict empty = rule.judge(step({}));
-  EXPECT_EQ(empty.kind, VerdictKind::searching);
+  EXPECT_EQ(empty.kind, searching);
   EXPECT_FALSE(empty.why.empty());
-  EXPECT_EQ(rule.judge(step({good})).kind, VerdictKind::searching);
-  EXPECT_EQ(rule.judge(step({good})).kind, VerdictKind::searching);
-  EXPECT_EQ(rule.judge(step({good})).kind, VerdictKind::localized);
+  EXPECT_THAT(kinds(rule, std::vector(3, step({good}))), ElementsAre(searching, searching, localized));
 }
 
 TEST(ConsecutiveRating, TheSameClusterMovesWithTheRobot) {
@@ -67,23 +69,22 @@ TEST(ConsecutiveRating, TheSameClusterMovesWithTheRobot) {
     }
     return verdict.kind;
   };
-  EXPECT_EQ(drive(0.0), VerdictKind::localized);
-  EXPECT_EQ(drive(0.4), VerdictKind::localized);
-  EXPECT_EQ(drive(0.6), VerdictKind::searching);
+  EXPECT_EQ(drive(0.0), localized);
+  EXPECT_EQ(drive(0.4), localized);
+  EXPECT_EQ(drive(0.6), searching);
 }
 
 TEST(ConsecutiveRating, ATurnedClusterIsAnother) {
   ConsecutiveRating rule({});
-  (void)rule.judge(step({good}));
-  (void)rule.judge(step({good}));
-  EXPECT_EQ(rule.judge(step({{{3.0, 4.0, 0.5 + radians(20)}, 0.9}})).kind, VerdictKind::searching);
+  const Rated turned{{3.0, 4.0, 0.5 + radians(20)}, 0.9};
+  EXPECT_THAT(kinds(rule, {step({good}), step({good}), step({turned})}),
+              ElementsAre(searching, searching, searching));
 }
 
 TEST(ConsecutiveRating, ANewLocalMapStartsOver) {
   ConsecutiveRating rule({});
-  (void)rule.judge(step({good}));
-  (void)rule.judge(step({good}));
-  EXPECT_EQ(rule.judge(step({good}, {}, 1)).kind, VerdictKind::searching);
+  EXPECT_THAT(kinds(rule, {step({good}), step({good}), step({good}, {}, 1)}),
+              ElementsAre(searching, searching, searching));
 }
 
 TEST(ConsecutiveRating, EquallyGoodPosesAreAmbiguous) {
@@ -92,8 +93,8 @@ TEST(ConsecutiveRating, EquallyGoodPosesAreAmbiguous) {
   const Rated repeated{{3.1, 4.1, 0.55}, 0.8};  // the same place as the first
   const Rated weak{{1.0, 1.0, 1.0}, 0.3};
   const Verdict verdict = rule.judge(step({good, other, repeated, weak}));
-  EXPECT_EQ(verdict.kind, VerdictKind::ambiguous);
-  EXPECT_THAT(verdict.candidates, testing::ElementsAre(good.pose, other.pose));
+  EXPECT_EQ(verdict.kind, ambiguous);
+  EXPECT_THAT(verdict.candidates, ElementsAre(good.pose, other.pose));
 }
 
 TEST(ConsecutiveRating, HundredsOfPosesSayNothing) {
@@ -101,7 +102,7 @@ TEST(ConsecutiveRating, HundredsOfPosesSayNothing) {
   std::vector<Rated> rated;
   for (int i = 0; i < 300; ++i) rated.push_back({{1.0 * i, 0.0, 0.0}, 0.4});
   const Verdict verdict = rule.judge(step(rated));
-  EXPECT_EQ(verdict.kind, VerdictKind::searching);
+  EXPECT_EQ(verdict.kind, searching);
   EXPECT_TRUE(verdict.candidates.empty());
 }
 
@@ -110,7 +111,7 @@ TEST(ConsecutiveRating, ResetForgets) {
   (void)rule.judge(step({good}));
   (void)rule.judge(step({good}));
   rule.reset();
-  EXPECT_EQ(rule.judge(step({good})).kind, VerdictKind::searching);
+  EXPECT_EQ(rule.judge(step({good})).kind, searching);
 }
 
 TEST(ConsecutiveRating, CountsPlacesForPeople) {
@@ -131,7 +132,7 @@ TEST(ConsecutiveRating, NamesTheRatingThatItLooksAt) {
   EXPECT_EQ(rule.judge(step(many)).why,
             "the best of 11 clusters has only r̄ = 0.09 of all ratings, and more than 0.80 is needed");
   many.pop_back();
-  EXPECT_EQ(rule.judge(step(many)).kind, VerdictKind::ambiguous);
+  EXPECT_EQ(rule.judge(step(many)).kind, ambiguous);
 }
 
 TEST(ConsecutiveRating, KnowsWhenItCanDeclareAtTheEarliest) {

@@ -1,12 +1,20 @@
 #include "raters/staged_margin.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
+
+#include "raters/kinds.hpp"
 
 namespace glocal::raters::staged_margin_test {
 namespace {
+
+using enum VerdictKind;
+using test::kinds;
+using testing::ElementsAre;
 
 const Pose2 here{3.0, 4.0, 0.5};
 const Pose2 there{8.0, 1.0, 2.0};
@@ -25,10 +33,9 @@ StepResult step(double best, double rival, double driven = 0.0, int epoch = 0) {
 
 TEST(StagedMargin, AClearLeadIsEnoughAfterThreeSteps) {
   StagedMargin rule({}, {});
-  EXPECT_EQ(rule.judge(step(0.9, 0.55)).kind, VerdictKind::searching);
-  EXPECT_EQ(rule.judge(step(0.9, 0.55)).kind, VerdictKind::searching);
+  EXPECT_THAT(kinds(rule, std::vector(2, step(0.9, 0.55))), ElementsAre(searching, searching));
   const Verdict verdict = rule.judge(step(0.9, 0.55));
-  EXPECT_EQ(verdict.kind, VerdictKind::localized);
+  EXPECT_EQ(verdict.kind, localized);
   EXPECT_EQ(verdict.map_from_robot, here);
 }
 
@@ -38,7 +45,7 @@ TEST(StagedMargin, ASmallerLeadMustLastLongerAndOverSomeWay) {
     StagedMargin rule({}, {});
     int declared_in = 0;
     for (int i = 1; i <= 10 && declared_in == 0; ++i) {
-      if (rule.judge(step(0.9, 0.68, each * i)).kind == VerdictKind::localized) declared_in = i;
+      if (rule.judge(step(0.9, 0.68, each * i)).kind == localized) declared_in = i;
     }
     // The way counts from the first step with the margin: seven times 0.3 m, or four times 0.6 m.
     EXPECT_EQ(declared_in, each < 0.5 ? 8 : 5) << each;
@@ -47,12 +54,9 @@ TEST(StagedMargin, ASmallerLeadMustLastLongerAndOverSomeWay) {
 
 TEST(StagedMargin, OneStepWithoutTheLeadBeginsAnew) {
   StagedMargin rule({}, {});
-  (void)rule.judge(step(0.9, 0.5));
-  (void)rule.judge(step(0.9, 0.5));
-  EXPECT_EQ(rule.judge(step(0.9, 0.7)).kind, VerdictKind::searching);
-  EXPECT_EQ(rule.judge(step(0.9, 0.5)).kind, VerdictKind::searching);
-  EXPECT_EQ(rule.judge(step(0.9, 0.5)).kind, VerdictKind::searching);
-  EXPECT_EQ(rule.judge(step(0.9, 0.5)).kind, VerdictKind::localized);
+  const StepResult clear = step(0.9, 0.5);
+  EXPECT_THAT(kinds(rule, {clear, clear, step(0.9, 0.7), clear, clear, clear}),
+              ElementsAre(searching, searching, searching, searching, searching, localized));
 }
 
 TEST(StagedMargin, AScanThatDoesNotFitBeginsAnewAndTakesTheVerdictBack) {
@@ -62,14 +66,12 @@ TEST(StagedMargin, AScanThatDoesNotFitBeginsAnewAndTakesTheVerdictBack) {
     result.omega_scan = contact;
     return result;
   };
-  for (int i = 0; i < 3; ++i) (void)rule.judge(with_scan(0.95));
-  EXPECT_EQ(rule.judge(with_scan(0.76)).kind, VerdictKind::localized);
+  EXPECT_THAT(kinds(rule, {with_scan(0.95), with_scan(0.95), with_scan(0.95), with_scan(0.76)}),
+              ElementsAre(searching, searching, localized, localized));
   const Verdict verdict = rule.judge(with_scan(0.7));
-  EXPECT_EQ(verdict.kind, VerdictKind::searching);
+  EXPECT_EQ(verdict.kind, searching);
   EXPECT_EQ(verdict.why, "only 70 % of the last scan fits the best pose");
-  EXPECT_EQ(rule.judge(with_scan(0.95)).kind, VerdictKind::searching);
-  EXPECT_EQ(rule.judge(with_scan(0.95)).kind, VerdictKind::searching);
-  EXPECT_EQ(rule.judge(with_scan(0.95)).kind, VerdictKind::localized);
+  EXPECT_THAT(kinds(rule, std::vector(3, with_scan(0.95))), ElementsAre(searching, searching, localized));
 }
 
 TEST(StagedMargin, AnotherBestPoseBeginsAnewAndTakesTheVerdictBack) {
@@ -77,22 +79,17 @@ TEST(StagedMargin, AnotherBestPoseBeginsAnewAndTakesTheVerdictBack) {
   for (int i = 0; i < 5; ++i) (void)rule.judge(step(0.9, 0.5));
   StepResult other = step(0.9, 0.5);
   std::swap(other.hypotheses[0].map_from_robot, other.hypotheses[1].map_from_robot);
-  EXPECT_EQ(rule.judge(other).kind, VerdictKind::searching);
-  EXPECT_EQ(rule.judge(other).kind, VerdictKind::searching);
-  EXPECT_EQ(rule.judge(other).kind, VerdictKind::localized);
+  EXPECT_THAT(kinds(rule, std::vector(3, other)), ElementsAre(searching, searching, localized));
 }
 
 TEST(StagedMargin, AnotherLocalFrameOrAStepWithoutHypothesesBeginsAnew) {
-  for (const bool empty : {true, false}) {
-    StagedMargin rule({}, {});
-    for (int i = 0; i < 3; ++i) (void)rule.judge(step(0.9, 0.5));
-    if (empty) {
-      EXPECT_EQ(rule.judge({}).kind, VerdictKind::searching);
-      EXPECT_EQ(rule.judge(step(0.9, 0.5)).kind, VerdictKind::searching);
-    } else {
-      EXPECT_EQ(rule.judge(step(0.9, 0.5, 0.0, 1)).kind, VerdictKind::searching);
-    }
-  }
+  const StepResult clear = step(0.9, 0.5);
+  StagedMargin with_gap({}, {});
+  EXPECT_THAT(kinds(with_gap, {clear, clear, clear, {}, clear}),
+              ElementsAre(searching, searching, localized, searching, searching));
+  StagedMargin in_another_frame({}, {});
+  EXPECT_THAT(kinds(in_another_frame, {clear, clear, clear, step(0.9, 0.5, 0.0, 1)}),
+              ElementsAre(searching, searching, localized, searching));
 }
 
 TEST(StagedMargin, PosesNearTheBestAreNoRivals) {
@@ -101,34 +98,33 @@ TEST(StagedMargin, PosesNearTheBestAreNoRivals) {
   near.hypotheses[1].map_from_robot = here * Pose2{0.5, 0.0, radians(20.0)};
   // The only rivals can be below Omega_max: a margin of 0.8.
   for (int i = 0; i < 2; ++i) (void)rule.judge(near);
-  EXPECT_EQ(rule.judge(near).kind, VerdictKind::localized);
+  EXPECT_EQ(rule.judge(near).kind, localized);
   // Turned by more than 30 degrees, it is one.
   rule.reset();
   near.hypotheses[1].map_from_robot = here * Pose2{0.5, 0.0, radians(40.0)};
-  EXPECT_EQ(rule.judge(near).kind, VerdictKind::ambiguous);
+  EXPECT_EQ(rule.judge(near).kind, ambiguous);
 }
 
 TEST(StagedMargin, RivalsOfTheSameQualityAreCandidates) {
   StagedMargin rule({}, {});
   const Verdict verdict = rule.judge(step(0.9, 0.87));
-  EXPECT_EQ(verdict.kind, VerdictKind::ambiguous);
+  EXPECT_EQ(verdict.kind, ambiguous);
   ASSERT_EQ(verdict.candidates.size(), 2U);
   EXPECT_EQ(verdict.candidates[0], here);
   EXPECT_EQ(verdict.candidates[1], there);
-  EXPECT_EQ(rule.judge(step(0.9, 0.79)).kind, VerdictKind::searching);
+  EXPECT_EQ(rule.judge(step(0.9, 0.79)).kind, searching);
 }
 
 TEST(StagedMargin, StaysDeclaredUntilTheLeadIsBelowEveryStages) {
   StagedMargin rule({}, {});
-  for (int i = 0; i < 3; ++i) (void)rule.judge(step(0.9, 0.5));
-  EXPECT_EQ(rule.judge(step(0.9, 0.78)).kind, VerdictKind::localized);
-  EXPECT_EQ(rule.judge(step(0.9, 0.82)).kind, VerdictKind::ambiguous);
-  EXPECT_EQ(rule.judge(step(0.9, 0.78)).kind, VerdictKind::searching);
+  const StepResult clear = step(0.9, 0.5);
+  EXPECT_THAT(kinds(rule, {clear, clear, clear, step(0.9, 0.78), step(0.9, 0.82), step(0.9, 0.78)}),
+              ElementsAre(searching, searching, localized, localized, ambiguous, searching));
 }
 
 TEST(StagedMargin, ARobotThatTurnsFastIsNotDeclaredUntilSomeStepsLater) {
   StagedMargin rule({}, {});
-  std::vector<VerdictKind> kinds;
+  std::vector<StepResult> steps;
   // 70 degrees a second up to step 3; then it stands.
   for (int i = 0; i < 7; ++i) {
     StepResult turning = step(0.9, 0.5);
@@ -137,21 +133,19 @@ TEST(StagedMargin, ARobotThatTurnsFastIsNotDeclaredUntilSomeStepsLater) {
     turning.local_from_robot = turned;
     turning.hypotheses[0].map_from_robot = here * turned;
     turning.hypotheses[1].map_from_robot = there * turned;
-    kinds.push_back(rule.judge(turning).kind);
+    steps.push_back(turning);
   }
-  const auto searching = VerdictKind::searching;
-  const auto localized = VerdictKind::localized;
-  EXPECT_EQ(kinds,
-            (std::vector{searching, searching, searching, searching, searching, searching, localized}));
+  EXPECT_THAT(kinds(rule, steps),
+              ElementsAre(searching, searching, searching, searching, searching, searching, localized));
 }
 
 TEST(StagedMargin, AViolationOfFreeSpaceForbidsADeclaration) {
   StagedMargin rule({.max_free_space_violation = 0.4}, {});
   StepResult violating = step(0.9, 0.5);
   violating.hypotheses.front().free_space_violation = 0.41;
-  for (int i = 0; i < 5; ++i) EXPECT_EQ(rule.judge(violating).kind, VerdictKind::searching) << i;
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(rule.judge(violating).kind, searching) << i;
   violating.hypotheses.front().free_space_violation = 0.39;
-  EXPECT_EQ(rule.judge(violating).kind, VerdictKind::localized);
+  EXPECT_EQ(rule.judge(violating).kind, localized);
 }
 
 TEST(StagedMargin, ConfidenceIsTheLogisticModelOfLeadAndSteps) {
@@ -189,18 +183,18 @@ StageSetup with_verifier() {
 
 TEST(StagedMargin, WhatBeamsSayMakesAConfidenceThatIsEnough) {
   StagedMargin rule({.min_confidence = 0.9975}, with_verifier());
-  EXPECT_EQ(rule.judge(cluttered(0.0)).kind, VerdictKind::searching);
-  EXPECT_EQ(rule.judge(cluttered(0.0)).kind, VerdictKind::searching);  // It stands.
+  EXPECT_EQ(rule.judge(cluttered(0.0)).kind, searching);
+  EXPECT_EQ(rule.judge(cluttered(0.0)).kind, searching);  // It stands.
   const Verdict verdict = rule.judge(cluttered(0.1));
-  EXPECT_EQ(verdict.kind, VerdictKind::localized);
+  EXPECT_EQ(verdict.kind, localized);
   EXPECT_FALSE(verdict.needs_certificate);
   EXPECT_NEAR(verdict.estimate->confidence, 0.998 * 0.9997982, 1e-6);
 
   StagedMargin surer({.min_confidence = 0.9979}, with_verifier());
   StagedMargin unverified({.min_confidence = 0.9975}, {});
   for (int i = 0; i < 2; ++i) {
-    EXPECT_EQ(surer.judge(cluttered(0.1 * i)).kind, VerdictKind::searching) << i;
-    EXPECT_EQ(unverified.judge(cluttered(0.1 * i)).kind, VerdictKind::searching) << i;
+    EXPECT_EQ(surer.judge(cluttered(0.1 * i)).kind, searching) << i;
+    EXPECT_EQ(unverified.judge(cluttered(0.1 * i)).kind, searching) << i;
   }
 }
 
@@ -223,7 +217,7 @@ TEST(StagedMargin, ARobotThatTurnsOnTheSpotSeesTheSameAgain) {
     StepResult turned = cluttered(0.0);
     turned.local_from_robot = Pose2{0.0, 0.0, 0.3 * i};
     for (Hypothesis& h : turned.hypotheses) h.map_from_robot = h.map_from_local * turned.local_from_robot;
-    EXPECT_EQ(rule.judge(turned).kind, VerdictKind::searching) << i;
+    EXPECT_EQ(rule.judge(turned).kind, searching) << i;
   }
 }
 
@@ -253,8 +247,8 @@ TEST(StagedMargin, WithoutARivalBeamsSayNothing) {
 TEST(StagedMargin, AScanWithMuchLessContactThanUsualBeginsAnew) {
   StagedMargin rule({}, with_verifier());
   for (int i = 0; i < 3; ++i) (void)rule.judge(cluttered(0.1 * i));
-  EXPECT_EQ(rule.judge(cluttered(0.3, 0.36)).kind, VerdictKind::localized);  // 0.7 * 0.5 and a little more
-  EXPECT_EQ(rule.judge(cluttered(0.4, 0.32)).kind, VerdictKind::searching);
+  EXPECT_EQ(rule.judge(cluttered(0.3, 0.36)).kind, localized);  // 0.7 * 0.5 and a little more
+  EXPECT_EQ(rule.judge(cluttered(0.4, 0.32)).kind, searching);
 }
 
 TEST(StagedMargin, ARefutedConfidenceMustLastTwiceAsLong) {
@@ -262,15 +256,15 @@ TEST(StagedMargin, ARefutedConfidenceMustLastTwiceAsLong) {
   double driven = 0.0;
   const auto go_on = [&] { return rule.judge(cluttered(driven += 0.1)).kind; };
   (void)go_on();
-  ASSERT_EQ(go_on(), VerdictKind::localized);
+  ASSERT_EQ(go_on(), localized);
   rule.refute({});
-  for (int i = 1; i < 4; ++i) EXPECT_EQ(go_on(), VerdictKind::searching) << i;
-  EXPECT_EQ(go_on(), VerdictKind::localized);
+  for (int i = 1; i < 4; ++i) EXPECT_EQ(go_on(), searching) << i;
+  EXPECT_EQ(go_on(), localized);
   // However often it was refuted, it can be sure again.
   for (int i = 0; i < 100; ++i) rule.refute({});
-  EXPECT_EQ(go_on(), VerdictKind::searching);
+  EXPECT_EQ(go_on(), searching);
   for (int i = 1; i < 1023; ++i) (void)go_on();
-  EXPECT_EQ(go_on(), VerdictKind::localized);
+  EXPECT_EQ(go_on(), localized);
 }
 
 TEST(StagedMargin, HypothesesNearTheBestWidenItsCovariance) {
@@ -290,13 +284,6 @@ TEST(StagedMargin, HypothesesNearTheBestWidenItsCovariance) {
   EXPECT_NEAR(wide->tt, 0.001 + 0.5 * 0.01, 1e-12);
 }
 
-/// Where declarations are verified.
-StagedMargin verified() {
-  StageSetup setup;
-  setup.has_verifier = true;
-  return {StagedMargin::Params{}, setup};
-}
-
 /// What a verifier says that found a rival with this score, of a pose that has 0.9.
 Verification with_rival(double score) {
   Verification verification;
@@ -309,44 +296,42 @@ Verification with_rival(double score) {
 
 TEST(StagedMargin, LowerStagesNeedACertificateAndSomeoneWhoGivesIt) {
   StagedMargin alone({}, {});
-  StagedMargin rule = verified();
+  StagedMargin rule({}, with_verifier());
   for (int i = 0; i < 2; ++i) {
-    EXPECT_EQ(alone.judge(step(0.9, 0.65)).kind, VerdictKind::searching);
+    EXPECT_EQ(alone.judge(step(0.9, 0.65)).kind, searching);
     const Verdict verdict = rule.judge(step(0.9, 0.65));
-    EXPECT_EQ(verdict.kind, i < 1 ? VerdictKind::searching : VerdictKind::localized);
+    EXPECT_EQ(verdict.kind, i < 1 ? searching : localized);
     EXPECT_EQ(verdict.needs_certificate, i == 1);
   }
   // A lead that lasts long enough by itself does not.
-  StagedMargin clear = verified();
+  StagedMargin clear({}, with_verifier());
   for (int i = 0; i < 2; ++i) (void)clear.judge(step(0.9, 0.5));
   EXPECT_FALSE(clear.judge(step(0.9, 0.5)).needs_certificate);
 }
 
 TEST(StagedMargin, WithoutCertificateTheLeadGoesOnCounting) {
   // 0.35 is enough by itself after three steps, and with a certificate after two.
-  StagedMargin rule = verified();
+  StagedMargin rule({}, with_verifier());
   (void)rule.judge(step(0.9, 0.55));
-  EXPECT_EQ(rule.judge(step(0.9, 0.55)).kind, VerdictKind::localized);
+  EXPECT_EQ(rule.judge(step(0.9, 0.55)).kind, localized);
   rule.refute(with_rival(0.5));
   const Verdict third = rule.judge(step(0.9, 0.55));
-  EXPECT_EQ(third.kind, VerdictKind::localized);
+  EXPECT_EQ(third.kind, localized);
   EXPECT_FALSE(third.needs_certificate);
 }
 
 TEST(StagedMargin, ARivalThatWasNotKnownBeginsAnew) {
-  StagedMargin rule = verified();
+  StagedMargin rule({}, with_verifier());
   (void)rule.judge(step(0.9, 0.55));
   (void)rule.judge(step(0.9, 0.55));
   rule.refute(with_rival(0.88));
-  EXPECT_EQ(rule.judge(step(0.9, 0.55)).kind, VerdictKind::searching);
+  EXPECT_EQ(rule.judge(step(0.9, 0.55)).kind, searching);
   EXPECT_TRUE(rule.judge(step(0.9, 0.55)).needs_certificate);
 }
 
 TEST(StagedMargin, KnowsWhenItCanDeclareAtTheEarliest) {
   EXPECT_EQ(StagedMargin({}, {}).least_steps(), 3U);
-  StageSetup with_verifier;
-  with_verifier.has_verifier = true;
-  EXPECT_EQ(StagedMargin({}, with_verifier).least_steps(), 2U);
+  EXPECT_EQ(StagedMargin({}, with_verifier()).least_steps(), 2U);
 }
 
 }  // namespace
