@@ -3,10 +3,10 @@ import assert from "node:assert/strict";
 import { cpSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { execFileSync } from "node:child_process";
 import { dirname, join } from "node:path";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import { assertAccessibleInBoth } from "./accessible.mjs";
 import { assertTablesExplained } from "./meanings.mjs";
-import { assertQuiet, closeBrowser, open, skip } from "./open.mjs";
+import { open, skip, testsOn } from "./open.mjs";
 import { glocal, program, workFolder } from "./runs.mjs";
 import { cellsOf, saved } from "./saved.mjs";
 
@@ -17,10 +17,9 @@ const hostile = "<img src=x onerror=window.hacked=1>'";
 const json = (file) => JSON.parse(readFileSync(file, "utf8"));
 /** Seeds of paper_lab at which the other method is right and `paper` is not. */
 const lost = [3, 8, 21];
-let opened, page, paper, other;
+let page, paper, other;
 
-before(async () => {
-  if (skip) return;
+testsOn(async () => {
   cpSync(committed, board, { recursive: true });
   rmSync(join(board, "paper@1"), { recursive: true });
   mkdirSync(join(board, "paper@1"));
@@ -37,12 +36,7 @@ before(async () => {
   const history = [207, 200, 290].map((right) => renewal("paper@1", "paper", 300, right));
   writeFileSync(join(board, "history.jsonl"), [...history, renewal("stress_space@1", "lidar_upright", 430, 331)].join(""));
   glocal("leaderboard", "--board", board, "-o", join(work, "board.html"));
-  opened = await open(join(work, "board.html"));
-  page = opened.page;
-});
-after(async () => {
-  if (!skip) assertQuiet(opened);
-  await closeBrowser();
+  return ({ page } = await open(join(work, "board.html")));
 });
 
 const letters = (entry) => entry.results.map(({ outcome }) => outcome).join("");

@@ -2,19 +2,18 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
-import { assertQuiet, closeBrowser, drawn, open, skip } from "./open.mjs";
+import { test } from "node:test";
+import { drawn, open, skip, testsOn } from "./open.mjs";
 import { glocal, report, runExperiment, stepsOf, workFolder } from "./runs.mjs";
 import { checkSteps } from "./steps_check.mjs";
 
 const variants = ["paper", "fewer_draws", "indexed"]; // in the order of the file
-let folder, opened, page, comparison, best;
+const work = workFolder();
+let folder, page, comparison, best;
 
 const summaryOf = (name) => JSON.parse(readFileSync(join(folder, name, "summary.json"), "utf8"));
 
-before(async () => {
-  if (skip) return;
-  const work = workFolder();
+testsOn(async () => {
   const only = variants.flatMap((name) => ["--only", name]);
   folder = runExperiment("paper_variants", join(work, "variants"), "--set", "output.maps=first_trial", ...only);
   const compared = join(work, "comparison.json");
@@ -22,12 +21,7 @@ before(async () => {
   comparison = JSON.parse(readFileSync(compared, "utf8"));
   const score = (name) => summaryOf(name).trials.right - summaryOf(name).trials.wrong;
   best = [...variants].sort((a, b) => score(b) - score(a) || summaryOf(a).steps_to_localize.median - summaryOf(b).steps_to_localize.median);
-  opened = await open(report(join(work, "report.html"), folder));
-  page = opened.page;
-});
-after(async () => {
-  if (!skip) assertQuiet(opened);
-  await closeBrowser();
+  return ({ page } = await open(report(join(work, "report.html"), folder)));
 });
 
 test("each run can be chosen, and goes on showing the same trial", { skip }, async () => {

@@ -1,28 +1,22 @@
 // A real log: 42 trials of a few steps each.
 import assert from "node:assert/strict";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import { assertAccessibleInBoth } from "./accessible.mjs";
-import { assertQuiet, closeBrowser, drawn, moveSlider, open, skip as noBrowser } from "./open.mjs";
+import { drawn, moveSlider, open, skip as noBrowser, testsOn } from "./open.mjs";
 import { report, runExperiment, stepsOf, trialsOf, workFolder } from "./runs.mjs";
 import { checkClusters, checkSteps } from "./steps_check.mjs";
 import { viridis } from "./viridis.mjs";
 
 const skip = noBrowser || (process.env.GLOCAL_DATASETS ? false : "GLOCAL_DATASETS is not set");
-let folder, trials, opened, page;
+const work = workFolder();
+let folder, trials, page;
 
-before(async () => {
-  if (skip) return;
-  const work = workFolder();
+testsOn(async () => {
   folder = runExperiment("intel", join(work, "intel"), "--jobs", "2");
   trials = trialsOf(folder);
-  opened = await open(report(join(work, "report.html"), folder));
-  page = opened.page;
-});
-after(async () => {
-  if (!skip) assertQuiet(opened);
-  await closeBrowser();
-});
+  return ({ page } = await open(report(join(work, "report.html"), folder)));
+}, skip);
 
 test("every trial can be chosen, and shows its own steps", { skip }, async () => {
   assert.equal(await page.locator("#trial option").count(), trials.length);

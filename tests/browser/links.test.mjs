@@ -1,27 +1,21 @@
 // Links to what is shown, and pictures and tables as files.
 import assert from "node:assert/strict";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import { assertTablesExplained } from "./meanings.mjs";
-import { assertQuiet, closeBrowser, drawn, mapView, moveSlider, open, pixelsOf, skip } from "./open.mjs";
+import { assertQuiet, drawn, mapView, moveSlider, open, pixelsOf, skip, testsOn } from "./open.mjs";
 import { report, runExperiment, stepsOf, trialsOf, workFolder } from "./runs.mjs";
 import { cellsOf, countColours, saved, seen } from "./saved.mjs";
 import { checkNumbers } from "./steps_check.mjs";
 
 const variants = ["paper", "fewer_draws"]; // in the order of the file
-let folder, file, opened, page;
+const work = workFolder();
+let folder, file, page;
 
-before(async () => {
-  if (skip) return;
-  const work = workFolder();
+testsOn(async () => {
   folder = runExperiment("paper_variants", join(work, "variants"), "--set", "output.maps=first_trial", ...variants.flatMap((name) => ["--only", name]));
   file = report(join(work, "report.html"), folder);
-  opened = await open(file);
-  page = opened.page;
-});
-after(async () => {
-  if (!skip) assertQuiet(opened);
-  await closeBrowser();
+  return ({ page } = await open(file));
 });
 
 const said = async (name) => new URLSearchParams(new URL(page.url()).hash.slice(1)).get(name);

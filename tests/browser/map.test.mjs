@@ -2,24 +2,18 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
-import { assertQuiet, closeBrowser, colourAt, drawn, mapView, moveSlider, open, painted, showOnly, skip } from "./open.mjs";
+import { test } from "node:test";
+import { assertQuiet, colourAt, drawn, mapView, moveSlider, open, painted, showOnly, skip, testsOn } from "./open.mjs";
 import { readPcd, report, runExperiment, stepsOf, workFolder } from "./runs.mjs";
 
-let folder, file, steps, opened, page;
+const work = workFolder();
+let folder, file, steps, page;
 
-before(async () => {
-  if (skip) return;
-  const work = workFolder();
+testsOn(async () => {
   folder = runExperiment("paper_simulation", join(work, "simulation"));
   file = report(join(work, "report.html"), folder);
   steps = stepsOf(folder, 0);
-  opened = await open(file, { viewport: { width: 1440, height: 900 } });
-  page = opened.page;
-});
-after(async () => {
-  if (!skip) assertQuiet(opened);
-  await closeBrowser();
+  return ({ page } = await open(file, { viewport: { width: 1440, height: 900 } }));
 });
 
 /** A colour of the style sheet: red, green, blue. */

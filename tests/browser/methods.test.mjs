@@ -2,16 +2,16 @@
 import assert from "node:assert/strict";
 import { existsSync, statSync } from "node:fs";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import { assertAccessibleInBoth } from "./accessible.mjs";
 import { assertTablesExplained } from "./meanings.mjs";
-import { assertQuiet, closeBrowser, drawn, open, skip } from "./open.mjs";
+import { drawn, open, skip, testsOn } from "./open.mjs";
 import { glocal, report, trialsOf, workFolder } from "./runs.mjs";
 
 const [methods, cases, seeds] = [["paper", "indexed"], ["apartment", "office"], [1, 2]];
 const work = workFolder();
 const file = join(work, "report.html");
-let opened, page, folder;
+let page, folder;
 
 /** Of the runs of a method, on some cases. */
 const trials = (method, some = cases) => some.flatMap((name) => seeds.flatMap((seed) => trialsOf(join(folder, `${method}_${name}_seed-${seed}`))));
@@ -20,18 +20,12 @@ const score = (all) => (counted(all, "right") - counted(all, "wrong")) / all.len
 const rows = () => page.locator("#figures tbody tr");
 const names = () => rows().locator("[data-run]").allInnerTexts();
 
-before(async () => {
-  if (skip) return;
+testsOn(async () => {
   folder = join(work, "results");
   const named = [...methods.flatMap((name) => ["--method", name]), ...cases.flatMap((name) => ["--case", name])];
   const set = ["trials.every_m=8", "trials.max_steps=6", "trials.min_steps=6", "observations.simulation.tour_legs=12"];
   glocal("run", ...named, "--seeds", "1..2", ...set.flatMap((text) => ["--set", text]), "--out", folder, "--quiet");
-  opened = await open(report(file, folder));
-  page = opened.page;
-});
-after(async () => {
-  if (!skip) assertQuiet(opened);
-  await closeBrowser();
+  return ({ page } = await open(report(file, folder)));
 });
 
 test("each method has a row over all cases and seeds, the best first", { skip }, async () => {

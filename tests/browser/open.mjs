@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import { existsSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join } from "node:path";
+import { after, before } from "node:test";
 
 const browserFile = "/usr/bin/chromium";
 export const skip = existsSync(browserFile) ? false : "Chromium is missing; scripts/setup --browser installs it";
@@ -53,6 +54,18 @@ export function assertQuiet({ noted, url }) {
   assert.deepEqual(fetched, [url]);
   assert.deepEqual(noted.errors, []);
   assert.equal(noted.dialogs, 0);
+}
+
+/** The tests of this file are on the page that `setUp` opens and returns: nothing has gone wrong with it when they have ended. */
+export function testsOn(setUp, skipped = skip) {
+  let opened;
+  before(async () => {
+    if (!skipped) opened = await setUp();
+  });
+  after(async () => {
+    if (!skipped) assertQuiet(opened);
+    await closeBrowser();
+  });
 }
 
 export async function moveSlider(page, step) {

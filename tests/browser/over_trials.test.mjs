@@ -2,25 +2,19 @@
 import assert from "node:assert/strict";
 import { copyFileSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
-import { assertQuiet, closeBrowser, drawn, open, skip } from "./open.mjs";
+import { test } from "node:test";
+import { assertQuiet, drawn, open, skip, testsOn } from "./open.mjs";
 import { report, runExperiment, trialsOf, workFolder } from "./runs.mjs";
 
 const variants = ["paper", "indexed"]; // in the order of the file
 const work = workFolder();
-let folder, opened, page, trials;
+let folder, page, trials;
 
-before(async () => {
-  if (skip) return;
+testsOn(async () => {
   const only = variants.flatMap((name) => ["--only", name]);
   folder = runExperiment("paper_variants", join(work, "variants"), "--set", "output.maps=first_trial", "--set", "trials.every_m=1", ...only);
   trials = variants.map((name) => trialsOf(join(folder, name)));
-  opened = await open(report(join(work, "report.html"), folder));
-  page = opened.page;
-});
-after(async () => {
-  if (!skip) assertQuiet(opened);
-  await closeBrowser();
+  return ({ page } = await open(report(join(work, "report.html"), folder)));
 });
 
 const marks = (from) => from.locator(".starts-stage [data-trial]");

@@ -2,27 +2,21 @@
 import assert from "node:assert/strict";
 import { statSync } from "node:fs";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
-import { assertQuiet, closeBrowser, colourAt, drawn, mapView, moveSlider, open, painted, showOnly, skip } from "./open.mjs";
+import { test } from "node:test";
+import { colourAt, drawn, mapView, moveSlider, open, painted, showOnly, skip, testsOn } from "./open.mjs";
 import { readPcd, report, runExperiment, stepsOf, trialsOf, workFolder } from "./runs.mjs";
 import { saved } from "./saved.mjs";
 import { checkClusters, checkNumbers, checkRobot, checkSteps } from "./steps_check.mjs";
 import { viridis } from "./viridis.mjs";
 
-let folder, file, steps, opened, page;
+const work = workFolder();
+let folder, file, steps, page;
 
-before(async () => {
-  if (skip) return;
-  const work = workFolder();
+testsOn(async () => {
   folder = runExperiment("paper_simulation", join(work, "simulation"));
   file = report(join(work, "report.html"), folder);
   steps = stepsOf(folder, 0);
-  opened = await open(file);
-  page = opened.page;
-});
-after(async () => {
-  if (!skip) assertQuiet(opened);
-  await closeBrowser();
+  return ({ page } = await open(file));
 });
 
 test("is one file of less than 1 MB", { skip }, () => {

@@ -2,31 +2,25 @@
 import assert from "node:assert/strict";
 import { readFileSync, statSync } from "node:fs";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import { assertAccessibleInBoth } from "./accessible.mjs";
 import { assertTablesExplained } from "./meanings.mjs";
-import { assertQuiet, closeBrowser, coloursAt, drawn, mapView, moveSlider, open, painted, pixelsOf, skip } from "./open.mjs";
+import { assertQuiet, coloursAt, drawn, mapView, moveSlider, open, painted, pixelsOf, skip, testsOn } from "./open.mjs";
 import { glocal, readPcd, report, runExperiment, stepsOf, trialsOf, workFolder } from "./runs.mjs";
 import { viridis } from "./viridis.mjs";
 
 const canvas = ".space .stage canvas";
 
-let folder, file, steps, opened, page, work;
+const work = workFolder();
+let folder, file, steps, page;
 
-before(async () => {
-  if (skip) return;
-  work = workFolder();
+testsOn(async () => {
   glocal("run", "--method", "lidar_upright", "--case", "workshop_lidar", "--out", join(work, "space"), "--quiet",
     "--set", "localizer.local_mapper=odometry", "--set", "trials.every_m=80", "--set", "output.maps=all");
   folder = join(work, "space", "lidar_upright_workshop_lidar");
   file = report(join(work, "report.html"), folder);
   steps = stepsOf(folder, 0);
-  opened = await open(file);
-  page = opened.page;
-});
-after(async () => {
-  if (!skip) assertQuiet(opened);
-  await closeBrowser();
+  return ({ page } = await open(file));
 });
 
 const pointsOf = (name) => readPcd(name).map(({ x, y, z }) => [x, y, z]);

@@ -1,26 +1,20 @@
 // What a sweep has taught, on the page.
 import assert from "node:assert/strict";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import { assertAccessibleInBoth } from "./accessible.mjs";
 import { assertTablesExplained } from "./meanings.mjs";
-import { assertQuiet, closeBrowser, open, skip } from "./open.mjs";
+import { open, skip, testsOn } from "./open.mjs";
 import { cellsOf, saved, seen } from "./saved.mjs";
 import { glocal, report, runExperiment, workFolder } from "./runs.mjs";
 
-let opened, page, sweep;
+const work = workFolder();
+let page, sweep;
 
-before(async () => {
-  if (skip) return;
-  const work = workFolder();
+testsOn(async () => {
   const folder = runExperiment("sim_sweep", join(work, "sweep"), "--set", "trials.every_m=25");
   sweep = JSON.parse(glocal("sweep", folder, "--json"));
-  opened = await open(report(join(work, "report.html"), folder));
-  page = opened.page;
-});
-after(async () => {
-  if (!skip) assertQuiet(opened);
-  await closeBrowser();
+  return ({ page } = await open(report(join(work, "report.html"), folder)));
 });
 
 const percent = (share) => `${(100 * share).toFixed(1)} %`;

@@ -3,24 +3,18 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import { pathToFileURL } from "node:url";
 import { assertTablesExplained } from "./meanings.mjs";
-import { assertQuiet, closeBrowser, moveSlider, open, painted, mapView, showOnly, skip } from "./open.mjs";
+import { assertQuiet, moveSlider, open, painted, mapView, showOnly, skip, testsOn } from "./open.mjs";
 import { report, runExperiment, stepsOf, workFolder } from "./runs.mjs";
 
 const work = workFolder();
-let folder, opened, page;
+let folder, page;
 
-before(async () => {
-  if (skip) return;
+testsOn(async () => {
   folder = runExperiment("paper_simulation", join(work, "simulation"));
-  opened = await open(report(join(work, "report.html"), folder));
-  page = opened.page;
-});
-after(async () => {
-  if (!skip) assertQuiet(opened);
-  await closeBrowser();
+  return ({ page } = await open(report(join(work, "report.html"), folder)));
 });
 
 test("words mean what the glossary says", async () => {
