@@ -21,7 +21,7 @@
 #include "sources/bags/recording.hpp"
 #include "sources/bags/recording_summary.hpp"
 #include "sources/clouds/cloud_file.hpp"
-#include "sources/clouds/octree_reader.hpp"
+#include "sources/clouds/cloud_formats.hpp"
 #include "sources/ros_map/ros_map.hpp"
 
 namespace glocal::app {

@@ -1,5 +1,3 @@
-#include "sources/bags/mcap.hpp"
-
 #include <fmt/format.h>
 #include <libdeflate.h>
 
@@ -12,6 +10,7 @@
 #include "glocal/limits.hpp"
 #include "sources/bags/chunked_file.hpp"
 #include "sources/bags/mcap_records.hpp"
+#include "sources/bags/recording_file.hpp"
 #include "sources/bags/unpacked.hpp"
 
 namespace glocal::bags {

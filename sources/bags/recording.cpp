@@ -7,9 +7,7 @@
 
 #include "glocal/error.hpp"
 #include "sources/bags/bag_folder.hpp"
-#include "sources/bags/mcap.hpp"
-#include "sources/bags/ros1_bag.hpp"
-#include "sources/bags/sqlite_bag.hpp"
+#include "sources/bags/recording_file.hpp"
 #include "sources/bags/unpacked.hpp"
 
 namespace glocal::bags {

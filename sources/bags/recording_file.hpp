@@ -1,9 +1,11 @@
-// What readers of one format each have in common.
+// What readers of one format each have in common, and how each opens a file.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -56,5 +58,25 @@ class RecordingFile {
  protected:
   std::vector<Connection> connections_;
 };
+
+/// Whether a file that begins so is a bag of ROS 1, of whatever version.
+[[nodiscard]] bool is_ros1_bag(std::string_view beginning);
+[[nodiscard]] bool is_mcap(std::string_view beginning);
+[[nodiscard]] bool is_sqlite(std::string_view beginning);
+
+/// Opens a ROS 1 bag, version 2.0 (wiki.ros.org/Bags/Format/2.0), indexed or not; chunks are uncompressed,
+/// bz2 or lz4. See Recording.
+[[nodiscard]] std::unique_ptr<RecordingFile> open_ros1_bag(const std::filesystem::path& file,
+                                                           const Reading& reading);
+
+/// Opens an MCAP recording, version 0 of the format (mcap.dev/spec), with summary or without, in chunks
+/// (uncompressed, lz4, zstd) or not. Chunks' CRC-32 are checked where they are given. See Recording.
+[[nodiscard]] std::unique_ptr<RecordingFile> open_mcap(const std::filesystem::path& file,
+                                                       const Reading& reading);
+
+/// Opens a ROS 2 bag in SQLite (.db3; rosbag2_storage_sqlite3: tables `topics` and `messages`), read-only.
+/// See Recording.
+[[nodiscard]] std::unique_ptr<RecordingFile> open_sqlite_bag(const std::filesystem::path& file,
+                                                             const Reading& reading);
 
 }  // namespace glocal::bags

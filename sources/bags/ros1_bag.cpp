@@ -1,5 +1,3 @@
-#include "sources/bags/ros1_bag.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 
 #include "glocal/words.hpp"
 #include "sources/bags/chunked_file.hpp"
+#include "sources/bags/recording_file.hpp"
 #include "sources/bags/unpacked.hpp"
 
 namespace glocal::bags {

@@ -1,5 +1,3 @@
-#include "sources/bags/sqlite_bag.hpp"
-
 #include <fmt/format.h>
 #include <sqlite3.h>
 
@@ -9,6 +7,7 @@
 
 #include "glocal/error.hpp"
 #include "glocal/limits.hpp"
+#include "sources/bags/recording_file.hpp"
 #include "sources/bags/unpacked.hpp"
 
 namespace glocal::bags {

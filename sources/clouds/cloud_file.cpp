@@ -9,10 +9,7 @@
 
 #include "glocal/extent.hpp"
 #include "glocal/point_spread.hpp"
-#include "sources/clouds/kitti_reader.hpp"
-#include "sources/clouds/octree_reader.hpp"
-#include "sources/clouds/pcd_reader.hpp"
-#include "sources/clouds/ply_reader.hpp"
+#include "sources/clouds/cloud_formats.hpp"
 
 namespace glocal::clouds {
 namespace {

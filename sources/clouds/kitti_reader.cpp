@@ -1,7 +1,6 @@
-#include "sources/clouds/kitti_reader.hpp"
-
 #include <fmt/format.h>
 
+#include "sources/clouds/cloud_formats.hpp"
 #include "sources/clouds/scalar.hpp"
 
 namespace glocal::clouds {

@@ -1,5 +1,3 @@
-#include "sources/clouds/octree_reader.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <optional>
 
 #include "glocal/words.hpp"
+#include "sources/clouds/cloud_formats.hpp"
 #include "sources/text_lines.hpp"
 
 namespace glocal::clouds {

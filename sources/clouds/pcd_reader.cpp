@@ -1,5 +1,3 @@
-#include "sources/clouds/pcd_reader.hpp"
-
 #include <fmt/format.h>
 #include <lzf.h>
 
@@ -9,6 +7,7 @@
 #include <utility>
 
 #include "glocal/words.hpp"
+#include "sources/clouds/cloud_formats.hpp"
 #include "sources/clouds/scalar.hpp"
 #include "sources/text_lines.hpp"
 

@@ -1,11 +1,10 @@
-#include "sources/clouds/ply_reader.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
 #include <utility>
 
 #include "glocal/words.hpp"
+#include "sources/clouds/cloud_formats.hpp"
 #include "sources/clouds/scalar.hpp"
 #include "sources/text_lines.hpp"
 

@@ -1,7 +1,6 @@
 #include "glocal/error.hpp"
 #include "glocal/limits.hpp"
 #include "sources/simulation/simulation.hpp"
-#include "sources/simulation/surface_points.hpp"
 #include "sources/simulation/world_grid.hpp"
 
 namespace glocal::simulation {

@@ -1,5 +1,3 @@
-#include "sources/simulation/surface_points.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include "glocal/pose3.hpp"
 #include "glocal/voxel_filter.hpp"
 #include "sources/clouds/cloud_file.hpp"
+#include "sources/simulation/world_grid.hpp"
 
 namespace glocal::simulation {
 namespace {

@@ -1,5 +1,3 @@
-#include "sources/sites/office_furniture.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +6,7 @@
 #include <vector>
 
 #include "glocal/pose2.hpp"
+#include "sources/sites/office_plan.hpp"
 
 namespace glocal::sites {
 namespace {

@@ -1,4 +1,5 @@
-// The floor plan of a simulated office: rows of rooms on both sides of corridors, and corridors across.
+// A simulated office: its floor plan (rows of rooms on both sides of corridors, and corridors across), what
+// stands about in it, and a robot's way through it.
 #pragma once
 
 #include <cstddef>
@@ -72,5 +73,18 @@ struct OfficePlan {
 
 /// Walls, doors and pillars.
 void add_walls(const OfficePlan& plan, Rng rng, simulation::World& world);
+
+/// How far (m) a robot may be from the middle of a corridor; furniture leaves a way for it.
+inline constexpr double lane_offset = 0.1;
+
+/// Puts furniture into all rooms and along all corridors, on the map and in reality. Rooms that are alike get
+/// the same furniture, but for some that is missing, stands a little elsewhere, or that only this room has. A
+/// part is moved, removed or added after the map was made. Robots' ways into rooms and along corridors stay
+/// free.
+void furnish(const OfficePlan& plan, Rng rng, simulation::World& world);
+
+/// Way points of a drive of `length` (m): along corridors to places all over the building, and into
+/// some of the rooms on the way, and back.
+[[nodiscard]] std::vector<simulation::Position> office_tour(const OfficePlan& plan, double length, Rng rng);
 
 }  // namespace glocal::sites

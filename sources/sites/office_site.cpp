@@ -1,8 +1,6 @@
 #include "sources/sites/office_site.hpp"
 
-#include "sources/sites/office_furniture.hpp"
 #include "sources/sites/office_plan.hpp"
-#include "sources/sites/office_tour.hpp"
 
 namespace glocal::sites {
 namespace {

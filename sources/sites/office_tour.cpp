@@ -1,10 +1,8 @@
-#include "sources/sites/office_tour.hpp"
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
-#include "sources/sites/office_furniture.hpp"
+#include "sources/sites/office_plan.hpp"
 
 namespace glocal::sites {
 namespace {

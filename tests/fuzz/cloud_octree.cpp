@@ -1,6 +1,6 @@
 // OctoMap's binary trees.
 #include "fuzz/cloud.hpp"
-#include "sources/clouds/octree_reader.hpp"
+#include "sources/clouds/cloud_formats.hpp"
 
 extern "C" int fuzz_cloud_octree(const std::uint8_t* data, std::size_t size) {
   // A few bytes may stand for as many voxels as are allowed.

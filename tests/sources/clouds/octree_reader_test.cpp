@@ -1,5 +1,3 @@
-#include "sources/clouds/octree_reader.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +6,7 @@
 #include "files.hpp"
 #include "octree_files.hpp"
 #include "sources/clouds/cloud_file.hpp"
+#include "sources/clouds/cloud_formats.hpp"
 #include "sources/clouds/point_cloud_map.hpp"
 
 namespace glocal::clouds::octree_reader_test {

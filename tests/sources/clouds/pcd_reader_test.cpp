@@ -1,5 +1,3 @@
-#include "sources/clouds/pcd_reader.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,6 +5,7 @@
 
 #include "files.hpp"
 #include "sources/clouds/cloud_files.hpp"
+#include "sources/clouds/cloud_formats.hpp"
 
 namespace glocal::clouds::pcd_reader_test {
 namespace {

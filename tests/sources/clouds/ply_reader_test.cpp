@@ -1,10 +1,9 @@
-#include "sources/clouds/ply_reader.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "files.hpp"
 #include "sources/clouds/cloud_files.hpp"
+#include "sources/clouds/cloud_formats.hpp"
 
 namespace glocal::clouds::ply_reader_test {
 namespace {
