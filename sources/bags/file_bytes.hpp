@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include "sources/clouds/scalar.hpp"
+
 namespace glocal::bags {
 
 /// Where bytes come from, for what is said about them.
@@ -57,11 +59,7 @@ class FieldReader {
 
   template <class T>
   [[nodiscard]] T number() {
-    const std::string_view bytes = take(sizeof(T));
-    T value = 0;
-    for (std::size_t i = sizeof(T); i-- > 0;)
-      value = static_cast<T>(static_cast<std::uint64_t>(value) << 8U | static_cast<unsigned char>(bytes[i]));
-    return value;
+    return clouds::number_at<T>(take(sizeof(T)).data(), std::endian::little);
   }
   /// Throws ConfigError if there are fewer.
   [[nodiscard]] std::string_view take(std::uint64_t n);

@@ -2,8 +2,6 @@
 // (OMG DDS-RTPS 2.2, chapter 10: CDR_BE and CDR_LE, which are version 1 of XCDR).
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -12,6 +10,7 @@
 #include <vector>
 
 #include "sources/bags/recording.hpp"
+#include "sources/clouds/scalar.hpp"
 
 namespace glocal::bags {
 
@@ -33,7 +32,7 @@ class MessageReader {
   template <class T>
   [[nodiscard]] T number() {
     if (!is_ros1_) align(sizeof(T));
-    return load<T>(take(sizeof(T)));
+    return clouds::number_at<T>(take(sizeof(T)).data(), order_);
   }
   [[nodiscard]] std::string_view text();
   /// How many elements follow, each of `least_size` bytes or more: no more than there is room for.
@@ -50,13 +49,6 @@ class MessageReader {
   [[noreturn]] void refuse(const std::string& message) const;
 
  private:
-  template <class T>
-  [[nodiscard]] T load(std::string_view bytes) const {
-    std::array<char, sizeof(T)> own{};
-    std::copy_n(bytes.begin(), sizeof(T), own.begin());
-    if (order_ != std::endian::native) std::reverse(own.begin(), own.end());
-    return std::bit_cast<T>(own);
-  }
   /// From the end of CDR's header on.
   void align(std::size_t size);
   [[nodiscard]] std::string_view take(std::size_t n);

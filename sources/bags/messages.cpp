@@ -73,9 +73,7 @@ std::optional<std::size_t> use_of(std::string_view name) {
 }
 
 CloudFields read_cloud_fields(MessageReader& reader) {
-  constexpr std::array types = {Scalar::int8,  Scalar::uint8,  Scalar::int16,   Scalar::uint16,
-                                Scalar::int32, Scalar::uint32, Scalar::float32, Scalar::float64};
-  constexpr std::size_t least_field = 13;
+  constexpr std::size_t types = 8, least_field = 13;
   CloudFields fields;
   for (std::size_t n = reader.count(least_field); n > 0; --n) {
     const std::string_view name = reader.text();
@@ -84,10 +82,9 @@ CloudFields read_cloud_fields(MessageReader& reader) {
     static_cast<void>(reader.number<std::uint32_t>());  // Values; the first one is taken.
     const auto use = use_of(name);
     if (!use) continue;
-    if (type < 1 || type > types.size())
-      reader.refuse(
-          fmt::format("the field '{}' is of type {}; there are 1 to {}", shown(name), type, types.size()));
-    fields.at(*use) = CloudField{offset, types.at(type - 1)};
+    if (type < 1 || type > types)
+      reader.refuse(fmt::format("the field '{}' is of type {}; there are 1 to {}", shown(name), type, types));
+    fields.at(*use) = CloudField{offset, static_cast<Scalar>(type - 1)};
   }
   if (!fields[0] || !fields[1] || !fields[2]) reader.refuse("the cloud lacks one of the fields x, y and z");
   return fields;

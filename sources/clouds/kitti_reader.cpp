@@ -17,7 +17,7 @@ Cloud read_kitti_cloud(std::string_view content, const std::string& file, const 
   for (; !content.empty(); content.remove_prefix(point_size)) {
     PointValues values{};
     for (std::size_t i = 0; i < 3; ++i)
-      values.at(i) = number_at(content.data() + i * value_size, Scalar::float32, std::endian::little);
+      values.at(i) = number_at<float>(content.data() + i * value_size, std::endian::little);
     cloud.add(values);
   }
   return cloud.finish();

@@ -6,6 +6,7 @@
 
 #include "glocal/words.hpp"
 #include "sources/clouds/cloud_formats.hpp"
+#include "sources/clouds/scalar.hpp"
 #include "sources/text_lines.hpp"
 
 namespace glocal::clouds {
@@ -120,8 +121,7 @@ class OctreeReader {
     if (content_.size() - at_ < node_size)
       refuse_at(at_, fmt::format("the file ends after {} of {} nodes", nodes_, header_.nodes()));
     const std::size_t begin = at_;
-    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(content_[begin + i]); };
-    const unsigned codes = byte(0) | static_cast<unsigned>(byte(1)) << 8U;
+    const unsigned codes = number_at<std::uint16_t>(content_.data() + begin, std::endian::little);
     if (codes == 0) refuse_at(begin, "an inner node has no children");
     at_ += node_size;
     ++nodes_;

@@ -290,7 +290,7 @@ class PcdReader {
     const std::string_view data = header_.data().rest();
     if (data.size() < 2 * size_bytes) refuse_number_of_points("nothing follows");
     const auto size_at = [&](std::size_t at) {
-      return static_cast<std::size_t>(number_at(data.data() + at, Scalar::uint32, std::endian::little));
+      return std::size_t{number_at<std::uint32_t>(data.data() + at, std::endian::little)};
     };
     const std::size_t compressed = size_at(0), size = size_at(size_bytes);
     if (size / header_.point_size() != header_.points() || size % header_.point_size() != 0)
