@@ -1,7 +1,9 @@
 // Text files of numbers: line by line, field by field.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <initializer_list>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -16,6 +18,16 @@ void split_fields(std::string_view line, std::vector<std::string_view>& fields);
 [[nodiscard]] std::optional<double> number_in(std::string_view field);
 /// The number, without a sign or decimals, that a field is.
 [[nodiscard]] std::optional<std::size_t> whole_number_in(std::string_view field);
+
+/// The value of an enum that a word is the name of; `names` has one for each value, in their order, perhaps
+/// not of the last ones. None if the word is no name.
+template <class Enum>
+[[nodiscard]] std::optional<Enum> value_named(std::string_view word,
+                                              std::initializer_list<std::string_view> names) {
+  const auto* const at = std::find(names.begin(), names.end(), word);
+  if (at == names.end()) return std::nullopt;
+  return static_cast<Enum>(at - names.begin());
+}
 
 /// The lines of a text, which must outlive this.
 class TextLines {

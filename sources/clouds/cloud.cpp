@@ -8,6 +8,7 @@
 
 #include "glocal/error.hpp"
 #include "glocal/words.hpp"
+#include "sources/text_lines.hpp"
 
 namespace glocal::clouds {
 namespace {
@@ -17,22 +18,10 @@ constexpr std::size_t index_of(Channel channel) {
 }
 
 std::optional<Channel> channel_called(std::string_view name) {
-  constexpr std::array<std::pair<std::string_view, Channel>, 12> names = {{{"x", Channel::x},
-                                                                           {"y", Channel::y},
-                                                                           {"z", Channel::z},
-                                                                           {"normal_x", Channel::normal_x},
-                                                                           {"normal_y", Channel::normal_y},
-                                                                           {"normal_z", Channel::normal_z},
-                                                                           {"nx", Channel::normal_x},
-                                                                           {"ny", Channel::normal_y},
-                                                                           {"nz", Channel::normal_z},
-                                                                           {"time", Channel::time},
-                                                                           {"t", Channel::time},
-                                                                           {"timestamp", Channel::time}}};
-  for (const auto& [known, channel] : names) {
-    if (known == name) return channel;
-  }
-  return std::nullopt;
+  if (name == "timestamp") return Channel::time;
+  const auto channel =
+      value_named<Channel>(name, {"x", "y", "z", "normal_x", "normal_y", "normal_z", "time"});
+  return channel ? channel : value_named<Channel>(name, {"x", "y", "z", "nx", "ny", "nz", "t"});
 }
 
 std::string list_of(const std::vector<std::string_view>& names) {

@@ -35,23 +35,6 @@ std::optional<std::string> decompressed(std::string_view data, std::size_t size)
   return bytes;
 }
 
-std::optional<Scalar> pcd_scalar(std::string_view type, std::string_view size) {
-  constexpr std::array<std::pair<std::string_view, Scalar>, 10> names = {{{"I1", Scalar::int8},
-                                                                          {"U1", Scalar::uint8},
-                                                                          {"I2", Scalar::int16},
-                                                                          {"U2", Scalar::uint16},
-                                                                          {"I4", Scalar::int32},
-                                                                          {"U4", Scalar::uint32},
-                                                                          {"I8", Scalar::int64},
-                                                                          {"U8", Scalar::uint64},
-                                                                          {"F4", Scalar::float32},
-                                                                          {"F8", Scalar::float64}}};
-  for (const auto& [name, scalar] : names) {
-    if (name.substr(0, 1) == type && name.substr(1) == size) return scalar;
-  }
-  return std::nullopt;
-}
-
 /// The header's lines, and what they mean.
 class PcdHeader {
  public:
@@ -147,7 +130,8 @@ class PcdHeader {
     for (std::size_t i = 0; i < fields_.size(); ++i) {
       const std::string_view type = types.empty() ? "F" : types[i];
       const std::string_view size = sizes.empty() ? "4" : sizes[i];
-      const auto scalar = pcd_scalar(type, size);
+      const auto scalar = value_named<Scalar>(fmt::format("{}{}", type, size),
+                                              {"I1", "U1", "I2", "U2", "I4", "U4", "F4", "F8", "I8", "U8"});
       if (!scalar)
         refuse(entries_.at(types.empty() ? "SIZE" : "TYPE").line,
                fmt::format("field '{}' is of TYPE {} and SIZE {}; there are I and U of 1, 2, 4 and 8 bytes, "

@@ -27,27 +27,13 @@ struct PlyElement {
 
 enum class PlyFormat { ascii, little_endian, big_endian };
 
+/// There are no whole numbers of eight bytes.
 std::optional<Scalar> ply_scalar(std::string_view name) {
-  constexpr std::array<std::pair<std::string_view, Scalar>, 16> names = {{{"char", Scalar::int8},
-                                                                          {"int8", Scalar::int8},
-                                                                          {"uchar", Scalar::uint8},
-                                                                          {"uint8", Scalar::uint8},
-                                                                          {"short", Scalar::int16},
-                                                                          {"int16", Scalar::int16},
-                                                                          {"ushort", Scalar::uint16},
-                                                                          {"uint16", Scalar::uint16},
-                                                                          {"int", Scalar::int32},
-                                                                          {"int32", Scalar::int32},
-                                                                          {"uint", Scalar::uint32},
-                                                                          {"uint32", Scalar::uint32},
-                                                                          {"float", Scalar::float32},
-                                                                          {"float32", Scalar::float32},
-                                                                          {"double", Scalar::float64},
-                                                                          {"float64", Scalar::float64}}};
-  for (const auto& [known, scalar] : names) {
-    if (known == name) return scalar;
-  }
-  return std::nullopt;
+  const auto scalar =
+      value_named<Scalar>(name, {"char", "uchar", "short", "ushort", "int", "uint", "float", "double"});
+  if (scalar) return scalar;
+  return value_named<Scalar>(name,
+                             {"int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64"});
 }
 
 class PlyHeader {
