@@ -193,15 +193,12 @@ MapData LogMap::load() {
   map.grid = make_grid(extent(placed), params_.resolution, file);
   Counter counter(map.grid);
   for (const PlacedScan& p : placed) counter.add(p);
-  for (int row = 0; row < map.grid.height; ++row) {
-    for (int column = 0; column < map.grid.width; ++column) {
-      const Count& count = counter.counts()[map.grid.index(column, row)];
-      PackedCells::Reference cell = map.grid.cell(column, row);
-      cell = classify(count, params_);
-      if (cell != Cell::occupied) continue;
-      map.points.push_back(point_of(map.grid, column, row, count));
-    }
-  }
+  for_each_cell(map.grid, [&](int column, int row) {
+    const Count& count = counter.counts()[map.grid.index(column, row)];
+    PackedCells::Reference cell = map.grid.cell(column, row);
+    cell = classify(count, params_);
+    if (cell == Cell::occupied) map.points.push_back(point_of(map.grid, column, row, count));
+  });
   if (map.points.empty()) {
     throw ConfigError(file, "its map has no occupied cell; lower min_hits, or use more scans");
   }

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "sources/simulation/clear_cells.hpp"
+
 namespace glocal::disturbed {
 namespace {
 
@@ -30,24 +32,22 @@ struct CellAt {
 std::vector<std::vector<CellAt>> components_of(const OccupancyGrid& grid) {
   std::vector<char> seen(grid.cells.size(), 0);
   std::vector<std::vector<CellAt>> components;
-  for (int row = 0; row < grid.height; ++row) {
-    for (int column = 0; column < grid.width; ++column) {
-      if (grid.cell(column, row) != Cell::occupied || seen[grid.index(column, row)] != 0) continue;
-      seen[grid.index(column, row)] = 1;
-      std::vector<CellAt> component{{column, row}};
-      for (std::size_t i = 0; i < component.size(); ++i) {
-        const CellAt at = component[i];
-        for (int y = std::max(at.row - 1, 0); y <= std::min(at.row + 1, grid.height - 1); ++y) {
-          for (int x = std::max(at.column - 1, 0); x <= std::min(at.column + 1, grid.width - 1); ++x) {
-            if (grid.cell(x, y) != Cell::occupied || seen[grid.index(x, y)] != 0) continue;
-            seen[grid.index(x, y)] = 1;
-            component.push_back({x, y});
-          }
+  for_each_cell(grid, [&](int column, int row) {
+    if (grid.cell(column, row) != Cell::occupied || seen[grid.index(column, row)] != 0) return;
+    seen[grid.index(column, row)] = 1;
+    std::vector<CellAt> component{{column, row}};
+    for (std::size_t i = 0; i < component.size(); ++i) {
+      const CellAt at = component[i];
+      for (int y = std::max(at.row - 1, 0); y <= std::min(at.row + 1, grid.height - 1); ++y) {
+        for (int x = std::max(at.column - 1, 0); x <= std::min(at.column + 1, grid.width - 1); ++x) {
+          if (grid.cell(x, y) != Cell::occupied || seen[grid.index(x, y)] != 0) continue;
+          seen[grid.index(x, y)] = 1;
+          component.push_back({x, y});
         }
       }
-      components.push_back(std::move(component));
     }
-  }
+    components.push_back(std::move(component));
+  });
   return components;
 }
 
@@ -91,9 +91,7 @@ void move_furniture(MapData& map, double share, double farthest, Rng& rng) {
       const auto up = static_cast<int>(std::lround(rng.uniform(-reach, reach)));
       for (const CellAt at : component) {
         const CellAt to{at.column + right, at.row + up};
-        const bool is_inside =
-            to.column >= 0 && to.row >= 0 && to.column < grid.width && to.row < grid.height;
-        if (is_inside && grid.cell(to.column, to.row) == Cell::free)
+        if (grid.holds(to.column, to.row) && grid.cell(to.column, to.row) == Cell::free)
           grid.cell(to.column, to.row) = Cell::occupied;
       }
     }
@@ -131,11 +129,9 @@ void leave_legs(MapData& map, double share, Rng& rng) {
 void bring_boxes(MapData& map, double density, Rng& rng) {
   OccupancyGrid& grid = map.grid;
   std::vector<CellAt> free;
-  for (int row = 0; row < grid.height; ++row) {
-    for (int column = 0; column < grid.width; ++column) {
-      if (grid.cell(column, row) == Cell::free) free.push_back({column, row});
-    }
-  }
+  for_each_cell(grid, [&](int column, int row) {
+    if (grid.cell(column, row) == Cell::free) free.push_back({column, row});
+  });
   if (free.empty()) return;
   const double area = static_cast<double>(free.size()) * grid.resolution * grid.resolution;
   const auto boxes = std::lround(density * area / 100.0);
@@ -168,14 +164,12 @@ void keep_if(MapData& map, Cell instead, IsKept is_kept) {
   }
   map.points = std::move(points);
   map.normals = std::move(normals);
-  for (int row = 0; row < map.grid.height; ++row) {
-    for (int column = 0; column < map.grid.width; ++column) {
-      const Pose2 centre = map.grid.centre(column, row);
-      PackedCells::Reference cell = map.grid.cell(column, row);
-      const bool is_changed = instead == Cell::unknown ? cell != Cell::unknown : cell == Cell::occupied;
-      if (is_changed && !is_kept(centre.x, centre.y)) cell = instead;
-    }
-  }
+  for_each_cell(map.grid, [&](int column, int row) {
+    const Pose2 centre = map.grid.centre(column, row);
+    PackedCells::Reference cell = map.grid.cell(column, row);
+    const bool is_changed = instead == Cell::unknown ? cell != Cell::unknown : cell == Cell::occupied;
+    if (is_changed && !is_kept(centre.x, centre.y)) cell = instead;
+  });
 }
 
 void drop_walls(MapData& map, double share, Rng& rng) {
@@ -197,13 +191,9 @@ void take_cells_of_points(MapData& map) {
   OccupancyGrid& grid = map.grid;
   if (grid.cells.empty()) return;
   std::replace(grid.cells.begin(), grid.cells.end(), Cell::occupied, Cell::free);
-  const Pose2 grid_from_map = inverse(grid.map_from_grid);
   for (std::size_t i = 0; i < map.points.size(); ++i) {
-    const Pose2 at = grid_from_map * Pose2{map.points.x[i], map.points.y[i], 0.0};
-    const auto column = static_cast<int>(std::floor(at.x / grid.resolution));
-    const auto row = static_cast<int>(std::floor(at.y / grid.resolution));
-    if (column >= 0 && row >= 0 && column < grid.width && row < grid.height)
-      grid.cell(column, row) = Cell::occupied;
+    const auto cell = simulation::cell_under({map.points.x[i], map.points.y[i]}, grid);
+    if (cell) grid.cells[*cell] = Cell::occupied;
   }
 }
 
@@ -227,12 +217,10 @@ void coarsen(MapData& map, double factor, Rng& /*rng*/) {
                        .cells = {}};
   coarse.cells =
       PackedCells(static_cast<std::size_t>(coarse.width) * static_cast<std::size_t>(coarse.height));
-  for (int row = 0; row < fine.height; ++row) {
-    for (int column = 0; column < fine.width; ++column) {
-      PackedCells::Reference cell = coarse.cell(column / n, row / n);
-      cell = std::max<Cell>(cell, fine.cell(column, row));
-    }
-  }
+  for_each_cell(fine, [&](int column, int row) {
+    PackedCells::Reference cell = coarse.cell(column / n, row / n);
+    cell = std::max<Cell>(cell, fine.cell(column, row));
+  });
   map.grid = std::move(coarse);
   take_points_of_cells(map);
 }

@@ -20,19 +20,13 @@ constexpr int most_draws = 1000;
 
 /// Marks the cells that a way of straight parts leads through.
 void mark_cells_of(const std::vector<Position>& way, const OccupancyGrid& grid, std::vector<char>& marks) {
-  const Pose2 grid_from_map = inverse(grid.map_from_grid);
-  const auto on_grid = [&](const Position& place) {
-    const Pose2 p = grid_from_map * Pose2{place[0], place[1], 0.0};
-    return Position{p.x / grid.resolution, p.y / grid.resolution};
-  };
   const auto mark = [&](int column, int row) {
-    const bool is_on_grid = column >= 0 && column < grid.width && row >= 0 && row < grid.height;
-    if (is_on_grid) marks[grid.index(column, row)] = 1;
-    return is_on_grid;
+    if (grid.holds(column, row)) marks[grid.index(column, row)] = 1;
+    return grid.holds(column, row);
   };
   for (std::size_t i = 0; i < way.size(); ++i) {
-    const Position end = on_grid(way[i]);
-    const Position start = on_grid(way[i == 0 ? 0 : i - 1]);
+    const Position end = on_grid(way[i], grid);
+    const Position start = on_grid(way[i == 0 ? 0 : i - 1], grid);
     visit_cells_before_end(start[0], start[1], end[0], end[1],
                            [&](int column, int row, double) { return mark(column, row); });
     mark(static_cast<int>(std::floor(end[0])), static_cast<int>(std::floor(end[1])));
@@ -44,15 +38,9 @@ std::vector<char> taken_cells(const OccupancyGrid& grid, const std::vector<std::
                               double clearance) {
   std::vector<char> is_way(grid.cells.size(), 0);
   for (const std::vector<Position>& way : ways) mark_cells_of(way, grid, is_way);
-  std::vector<char> is_taken(grid.cells.size());
-  for (std::size_t i = 0; i < is_taken.size(); ++i) is_taken[i] = grid.cells[i] == Cell::free ? 0 : 1;
-  const NearCells near_cells(clearance, grid);
-  for (int row = 0; row < grid.height; ++row) {
-    for (int column = 0; column < grid.width; ++column) {
-      if (is_way[grid.index(column, row)] == 0) continue;
-      is_taken[grid.index(column, row)] = 1;
-      near_cells.mark(column, row, is_taken);
-    }
+  std::vector<char> is_taken = grown(is_way, clearance, grid);
+  for (std::size_t i = 0; i < is_taken.size(); ++i) {
+    if (grid.cells[i] != Cell::free || is_way[i] != 0) is_taken[i] = 1;
   }
   return is_taken;
 }

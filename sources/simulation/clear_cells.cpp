@@ -33,8 +33,7 @@ void NearCells::mark(int column, int row, std::vector<char>& marks) const {
 
 std::vector<char> clear_cells(const OccupancyGrid& grid, double clearance) {
   const auto is_free = [&](int column, int row) {
-    return column >= 0 && row >= 0 && column < grid.width && row < grid.height &&
-           grid.cell(column, row) == Cell::free;
+    return grid.holds(column, row) && grid.cell(column, row) == Cell::free;
   };
   const NearCells near_cells(clearance, grid);
   std::vector<char> is_near(grid.cells.size(), 0);
@@ -52,10 +51,24 @@ std::vector<char> clear_cells(const OccupancyGrid& grid, double clearance) {
   return is_clear;
 }
 
-std::optional<std::size_t> cell_under(const Position& place, const OccupancyGrid& grid) {
+std::vector<char> grown(const std::vector<char>& marks, double distance, const OccupancyGrid& grid) {
+  const NearCells near_cells(distance, grid);
+  std::vector<char> all(marks.size(), 0);
+  for_each_cell(grid, [&](int column, int row) {
+    if (marks[grid.index(column, row)] != 0) near_cells.mark(column, row, all);
+  });
+  return all;
+}
+
+Position on_grid(const Position& place, const OccupancyGrid& grid) {
   const Pose2 p = inverse(grid.map_from_grid) * Pose2{place[0], place[1], 0.0};
-  const double column = std::floor(p.x / grid.resolution);
-  const double row = std::floor(p.y / grid.resolution);
+  return {p.x / grid.resolution, p.y / grid.resolution};
+}
+
+std::optional<std::size_t> cell_under(const Position& place, const OccupancyGrid& grid) {
+  const Position p = on_grid(place, grid);
+  const double column = std::floor(p[0]);
+  const double row = std::floor(p[1]);
   // Negated so that NaN falls outside.
   if (!(column >= 0.0 && column < grid.width && row >= 0.0 && row < grid.height)) return std::nullopt;
   return grid.index(static_cast<int>(column), static_cast<int>(row));

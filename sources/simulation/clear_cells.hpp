@@ -28,6 +28,13 @@ class NearCells {
 /// every cell that is not. What lies outside of the grid is not free either.
 [[nodiscard]] std::vector<char> clear_cells(const OccupancyGrid& grid, double clearance);
 
+/// Marks the cells that have a place nearer than `distance` (m) to a marked cell.
+[[nodiscard]] std::vector<char> grown(const std::vector<char>& marks, double distance,
+                                      const OccupancyGrid& grid);
+
+/// A place of the map in the grid's frame, in cells.
+[[nodiscard]] Position on_grid(const Position& place, const OccupancyGrid& grid);
+
 /// Index of the cell under a place of the map; none off the grid.
 [[nodiscard]] std::optional<std::size_t> cell_under(const Position& place, const OccupancyGrid& grid);
 

@@ -69,20 +69,14 @@ std::vector<std::uint32_t> take_region(std::size_t from, const OccupancyGrid& gr
     const int column = static_cast<int>(cells[i] % static_cast<std::uint32_t>(grid.width));
     const int row = static_cast<int>(cells[i] / static_cast<std::uint32_t>(grid.width));
     for (const auto& [dx, dy] : {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
-      const bool is_on_grid =
-          column + dx >= 0 && column + dx < grid.width && row + dy >= 0 && row + dy < grid.height;
-      if (!is_on_grid || is_clear[grid.index(column + dx, row + dy)] == 0) continue;
-      is_clear[grid.index(column + dx, row + dy)] = 0;
-      cells.push_back(static_cast<std::uint32_t>(grid.index(column + dx, row + dy)));
+      if (!grid.holds(column + dx, row + dy)) continue;
+      const std::size_t cell = grid.index(column + dx, row + dy);
+      if (is_clear[cell] == 0) continue;
+      is_clear[cell] = 0;
+      cells.push_back(static_cast<std::uint32_t>(cell));
     }
   }
   return cells;
-}
-
-double length_of(const std::vector<Position>& way) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < way.size(); ++i) length += distance(way[i - 1], way[i]);
-  return length;
 }
 
 /// The same way from its end, with a place for each cell of its length.
@@ -118,19 +112,15 @@ ClearRegion ClearRegion::around(const Position& place, const OccupancyGrid& grid
 }
 
 ClearRegion::ClearRegion(const OccupancyGrid& grid, std::vector<std::uint32_t> cells)
-    : map_from_grid_(grid.map_from_grid),
-      resolution_(grid.resolution),
-      width_(grid.width),
-      height_(grid.height),
+    : grid_{grid.map_from_grid, grid.resolution, grid.width, grid.height, {}},
       cells_(std::move(cells)),
       is_inside_(grid.cells.size(), 0) {
   for (const std::uint32_t cell : cells_) is_inside_[cell] = 1;
 }
 
 bool ClearRegion::holds(const Position& place) const {
-  const Position p = on_grid(place);
-  const bool is_on_grid = p[0] >= 0.0 && p[0] < width_ && p[1] >= 0.0 && p[1] < height_;
-  return is_on_grid && is_inside_[cell_of(p)] != 0;
+  const std::optional<std::size_t> cell = cell_under(place, grid_);
+  return cell && is_inside_[*cell] != 0;
 }
 
 Position ClearRegion::draw(Rng& rng) const {
@@ -139,8 +129,8 @@ Position ClearRegion::draw(Rng& rng) const {
 }
 
 std::vector<Position> ClearRegion::way(const Position& from, const Position& to) const {
-  const Position start = on_grid(from);
-  const Position end = on_grid(to);
+  const Position start = on_grid(from, grid_);
+  const Position end = on_grid(to, grid_);
   std::vector<Position> places{start};
   const std::vector<std::uint32_t> cells = cells_between(cell_of(start), cell_of(end));
   for (std::size_t i = 1; i + 1 < cells.size(); ++i) places.push_back(centre_of(cells[i]));
@@ -152,38 +142,30 @@ std::vector<Position> ClearRegion::way(const Position& from, const Position& to)
   return way;
 }
 
-/// In cells, in the grid's frame.
-Position ClearRegion::on_grid(const Position& place) const {
-  const Pose2 p = inverse(map_from_grid_) * Pose2{place[0], place[1], 0.0};
-  return {p.x / resolution_, p.y / resolution_};
-}
-
 Position ClearRegion::on_map(const Position& place) const {
-  const Pose2 p = map_from_grid_ * Pose2{place[0] * resolution_, place[1] * resolution_, 0.0};
+  const Pose2 p = grid_.map_from_grid * Pose2{place[0] * grid_.resolution, place[1] * grid_.resolution, 0.0};
   return {p.x, p.y};
 }
 
 bool ClearRegion::holds_cell(int column, int row) const {
-  if (column < 0 || column >= width_ || row < 0 || row >= height_) return false;
-  return is_inside_[static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
-                    static_cast<std::size_t>(column)] != 0;
+  return grid_.holds(column, row) && is_inside_[grid_.index(column, row)] != 0;
 }
 
 std::uint32_t ClearRegion::cell_of(const Position& on_grid) const {
-  return static_cast<std::uint32_t>(on_grid[1]) * static_cast<std::uint32_t>(width_) +
+  return static_cast<std::uint32_t>(on_grid[1]) * static_cast<std::uint32_t>(grid_.width) +
          static_cast<std::uint32_t>(on_grid[0]);
 }
 
 Position ClearRegion::centre_of(std::uint32_t cell) const {
-  const std::uint32_t column = cell % static_cast<std::uint32_t>(width_);
-  const std::uint32_t row = cell / static_cast<std::uint32_t>(width_);
+  const std::uint32_t column = cell % static_cast<std::uint32_t>(grid_.width);
+  const std::uint32_t row = cell / static_cast<std::uint32_t>(grid_.width);
   return {column + 0.5, row + 0.5};
 }
 
 /// From the first to the last, both included. A step over a corner needs the cells at both of its sides, so
 /// that it does not touch others.
 std::vector<std::uint32_t> ClearRegion::cells_between(std::uint32_t from, std::uint32_t to) const {
-  const std::uint32_t width = static_cast<std::uint32_t>(width_);
+  const std::uint32_t width = static_cast<std::uint32_t>(grid_.width);
   const auto column_of = [&](std::uint32_t cell) { return static_cast<int>(cell % width); };
   const auto row_of = [&](std::uint32_t cell) { return static_cast<int>(cell / width); };
   // At least so much is left: all steps over corners, then all straight ones.

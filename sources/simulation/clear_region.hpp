@@ -34,7 +34,6 @@ class ClearRegion {
  private:
   ClearRegion(const OccupancyGrid& grid, std::vector<std::uint32_t> cells);
 
-  [[nodiscard]] Position on_grid(const Position& place) const;
   [[nodiscard]] Position on_map(const Position& place) const;
   [[nodiscard]] bool holds_cell(int column, int row) const;
   [[nodiscard]] std::uint32_t cell_of(const Position& on_grid) const;
@@ -44,9 +43,7 @@ class ClearRegion {
   [[nodiscard]] std::vector<Position> shortened(const std::vector<Position>& way) const;
   [[nodiscard]] std::vector<Position> tightened(const std::vector<Position>& way) const;
 
-  Pose2 map_from_grid_;
-  double resolution_;
-  int width_, height_;
+  OccupancyGrid grid_;  ///< Without its cells.
   std::vector<std::uint32_t> cells_;
   std::vector<char> is_inside_;  ///< Of each cell of the grid.
 };

@@ -1,7 +1,6 @@
 #include "sources/simulation/itinerary.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <set>
 #include <utility>
@@ -41,10 +40,9 @@ std::optional<Position> Itinerary::next() {
 }
 
 void Itinerary::go_on_near(const Position& place) {
-  const auto distance_to = [&](const Position& p) { return std::hypot(p[0] - place[0], p[1] - place[1]); };
-  const auto nearest =
-      std::min_element(way_points_.begin(), way_points_.end(),
-                       [&](const Position& a, const Position& b) { return distance_to(a) < distance_to(b); });
+  const auto nearest = std::min_element(
+      way_points_.begin(), way_points_.end(),
+      [&](const Position& a, const Position& b) { return distance(place, a) < distance(place, b); });
   at_ = static_cast<std::size_t>(nearest - way_points_.begin());
   from_.reset();
   has_to_get_there_ = true;

@@ -11,15 +11,6 @@
 #include "glocal/error.hpp"
 
 namespace glocal::simulation {
-namespace {
-
-/// A share of the way from pose to pose, as the robot drives it: straight, and turning evenly.
-Pose2 pose_between(const Pose2& from, const Pose2& to, double share) {
-  return {from.x + share * (to.x - from.x), from.y + share * (to.y - from.y),
-          wrap_angle(from.theta + share * wrap_angle(to.theta - from.theta))};
-}
-
-}  // namespace
 
 LidarSimulation::LidarSimulation(const Params& params, const SourceSetup& setup)
     : LidarSimulation(params, setup, planned_drive(params, setup)) {}

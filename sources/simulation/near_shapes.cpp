@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "sources/grid_ray.hpp"
 
@@ -14,19 +13,6 @@ constexpr double most_cells_a_side = 512.0;
 constexpr int most_cells_a_shape = 256;
 /// m; more than rounding puts a shape or a ray beside its cell.
 constexpr double hair = 1e-6;
-
-struct Bounds {
-  static constexpr double infinite = std::numeric_limits<double>::infinity();
-  Position low{infinite, infinite};
-  Position high{-infinite, -infinite};
-
-  void add(const Position& place, double around) {
-    for (std::size_t axis = 0; axis < place.size(); ++axis) {
-      low[axis] = std::min(low[axis], place[axis] - around);
-      high[axis] = std::max(high[axis], place[axis] + around);
-    }
-  }
-};
 
 void add(Bounds& bounds, const Segment& segment) {
   bounds.add(segment.from, hair);

@@ -20,8 +20,7 @@ double ray_distance(const OccupancyGrid& grid, const Position& origin, const Pos
   };
   const auto look = [&](int column, int row, double share) {
     if (is_lost(share) || share * reach >= distance) return false;
-    const bool inside = column >= 0 && row >= 0 && column < grid.width && row < grid.height;
-    const Cell cell = inside ? grid.cell(column, row) : Cell::unknown;
+    const Cell cell = grid.holds(column, row) ? grid.cell(column, row) : Cell::unknown;
     if (cell == Cell::unknown && last_cell != Cell::unknown) unknown_from = share;
     last_cell = cell;
     if (cell == Cell::occupied) distance = share * reach;

@@ -28,12 +28,8 @@ void add_steps(std::vector<Pose2>& poses, const Pose2& target, double size) {
   const Pose2 from = poses.back();
   // A remainder that is only rounding makes no step of its own.
   const int steps = static_cast<int>(std::ceil(size - 1e-9));
-  const double turn = wrap_angle(target.theta - from.theta);
-  for (int i = 1; i <= steps; ++i) {
-    const double share = static_cast<double>(i) / steps;
-    poses.push_back({from.x + share * (target.x - from.x), from.y + share * (target.y - from.y),
-                     wrap_angle(from.theta + share * turn)});
-  }
+  for (int i = 1; i <= steps; ++i)
+    poses.push_back(pose_between(from, target, static_cast<double>(i) / steps));
 }
 
 double heading(const Position& from, const Position& to) {
@@ -164,6 +160,11 @@ PlannedDrive drive_in_map(LaserDriveParams params, const SourceSetup& setup) {
 }
 
 }  // namespace
+
+Pose2 pose_between(const Pose2& from, const Pose2& to, double share) {
+  return {from.x + share * (to.x - from.x), from.y + share * (to.y - from.y),
+          wrap_angle(from.theta + share * wrap_angle(to.theta - from.theta))};
+}
 
 Route route_of(const Ways& ways, const DriveParams& params, Rng rng) {
   check_where_it_is_carried(ways, params);

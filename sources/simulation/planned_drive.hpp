@@ -25,6 +25,9 @@ struct Route {
   std::vector<std::size_t> carried;  ///< Those the robot was carried to, by their indexes.
 };
 
+/// A share of the way from pose to pose, as the robot drives it: straight, and turning evenly.
+[[nodiscard]] Pose2 pose_between(const Pose2& from, const Pose2& to, double share);
+
 /// Straight from corner to corner of the ways, with turns on the spot. Throws ConfigError for a kidnapping to
 /// where the drive cannot go on, or after its end.
 [[nodiscard]] Route route_of(const Ways& ways, const DriveParams& params, Rng rng);

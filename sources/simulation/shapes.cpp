@@ -50,7 +50,7 @@ double distance_to(const Segment& segment, const Position& place) {
 }
 
 double distance_to(const Circle& circle, const Position& place) {
-  return std::abs(std::hypot(place[0] - circle.centre[0], place[1] - circle.centre[1]) - circle.radius);
+  return std::abs(distance(circle.centre, place) - circle.radius);
 }
 
 /// A ray in space and what is seen of it from above.
@@ -93,9 +93,7 @@ double ray_distance(const Segment& segment, const SpatialRay& ray) {
 }
 
 double ray_distance(const Circle& circle, const SpatialRay& ray) {
-  const auto inside = [&](const Position& p) {
-    return std::hypot(p[0] - circle.centre[0], p[1] - circle.centre[1]) <= circle.radius;
-  };
+  const auto inside = [&](const Position& p) { return distance(circle.centre, p) <= circle.radius; };
   return std::min(ray.distance_to_side(ray_distance(circle, ray.origin, ray.level), circle.height),
                   ray.distance_to_level(circle.height, inside));
 }

@@ -1,8 +1,11 @@
 // What rays meet in a simulated world.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "glocal/pose3.hpp"
@@ -19,6 +22,28 @@ using Position = std::array<double, 2>;  ///< x, y (m)
 [[nodiscard]] inline Position between(const Position& a, const Position& b, double share) {
   return {a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])};
 }
+
+/// Length of a way of straight parts, m.
+[[nodiscard]] inline double length_of(const std::vector<Position>& way) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < way.size(); ++i) length += distance(way[i - 1], way[i]);
+  return length;
+}
+
+/// A rectangle around places.
+struct Bounds {
+  static constexpr double infinite = std::numeric_limits<double>::infinity();
+  Position low{infinite, infinite};
+  Position high{-infinite, -infinite};
+
+  /// Takes in a place, and what is as near to it along either axis.
+  void add(const Position& place, double around) {
+    for (std::size_t axis = 0; axis < place.size(); ++axis) {
+      low[axis] = std::min(low[axis], place[axis] - around);
+      high[axis] = std::max(high[axis], place[axis] + around);
+    }
+  }
+};
 
 /// Heights are those of things that stand on the floor, m; in the plane nobody asks for them.
 struct Segment {

@@ -14,22 +14,15 @@
 namespace glocal::simulation {
 namespace {
 
-double length_of(const Segment& s) {
-  return std::hypot(s.to[0] - s.from[0], s.to[1] - s.from[1]);
-}
-
 /// Draws surfaces as points on the floor of a world, at most a spacing apart.
 class SurfacePainter {
  public:
   SurfacePainter(double floor, double spacing) : floor_(floor), spacing_(spacing) {}
 
   void draw(const Segment& s) {
-    const int steps = count(length_of(s));
-    for (int i = 0; i <= steps; ++i) {
-      const double share = static_cast<double>(i) / steps;
-      draw_upright({s.from[0] + share * (s.to[0] - s.from[0]), s.from[1] + share * (s.to[1] - s.from[1])},
-                   s.height);
-    }
+    const int steps = count(distance(s.from, s.to));
+    for (int i = 0; i <= steps; ++i)
+      draw_upright(between(s.from, s.to, static_cast<double>(i) / steps), s.height);
   }
 
   void draw(const Circle& c) {
@@ -48,8 +41,8 @@ class SurfacePainter {
 
   void draw(const Top& top) {
     const auto& [a, b, c, d] = top.corners;
-    const int along = count(std::hypot(b[0] - a[0], b[1] - a[1]));
-    const int across = count(std::hypot(d[0] - a[0], d[1] - a[1]));
+    const int along = count(distance(a, b));
+    const int across = count(distance(a, d));
     for (int i = 0; i <= along; ++i) {
       for (int k = 0; k <= across; ++k) {
         const double s = static_cast<double>(i) / along;
@@ -84,24 +77,22 @@ class SurfacePainter {
 /// m^2
 double area_of(const Shapes& shapes) {
   double area = 0.0;
-  for (const Segment& s : shapes.segments) area += length_of(s) * s.height;
+  for (const Segment& s : shapes.segments) area += distance(s.from, s.to) * s.height;
   for (const Circle& c : shapes.circles) area += std::numbers::pi * c.radius * (2.0 * c.height + c.radius);
   for (const Top& t : shapes.tops) {
     const auto& [a, b, c, d] = t.corners;
-    area += std::hypot(b[0] - a[0], b[1] - a[1]) * std::hypot(d[0] - a[0], d[1] - a[1]);
+    area += distance(a, b) * distance(a, d);
   }
   return area;
 }
 
 void add_floor(const World& world, const OccupancyGrid& plan, SurfacePainter& painter) {
-  for (int row = 0; row < plan.height; ++row) {
-    for (int column = 0; column < plan.width; ++column) {
-      if (plan.cell(column, row) != Cell::free) continue;
-      const Pose2 centre = plan.centre(column, row);
-      painter.add({centre.x, centre.y}, 0.0);
-      if (world.ceiling > 0.0) painter.add({centre.x, centre.y}, world.ceiling);
-    }
-  }
+  for_each_cell(plan, [&](int column, int row) {
+    if (plan.cell(column, row) != Cell::free) return;
+    const Pose2 centre = plan.centre(column, row);
+    painter.add({centre.x, centre.y}, 0.0);
+    if (world.ceiling > 0.0) painter.add({centre.x, centre.y}, world.ceiling);
+  });
 }
 
 bool is_mapped(const World& world, const Point& p) {

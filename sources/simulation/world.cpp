@@ -69,8 +69,7 @@ Shapes shapes_where(const World& world, bool Presence::*present) {
 }
 
 Position walked(const std::vector<Position>& points, double way) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < points.size(); ++i) length += distance(points[i - 1], points[i]);
+  const double length = length_of(points);
   if (length <= 0.0) return points.front();
   way = std::fmod(way, 2.0 * length);
   if (way > length) way = 2.0 * length - way;

@@ -50,10 +50,8 @@ class Raster {
   void draw(const Segment& s) {
     const int steps = std::max(std::abs(column_of(s.to[0]) - column_of(s.from[0])),
                                std::abs(row_of(s.to[1]) - row_of(s.from[1])));
-    for (int i = 0; i <= steps; ++i) {
-      const double share = steps == 0 ? 0.0 : static_cast<double>(i) / steps;
-      mark(s.from[0] + share * (s.to[0] - s.from[0]), s.from[1] + share * (s.to[1] - s.from[1]));
-    }
+    for (int i = 0; i <= steps; ++i)
+      mark(between(s.from, s.to, steps == 0 ? 0.0 : static_cast<double>(i) / steps));
   }
 
   void draw(const Circle& c) {
@@ -61,7 +59,7 @@ class Raster {
         static_cast<int>(std::ceil(2.0 * std::numbers::pi * c.radius / (0.5 * grid_.resolution)));
     for (int i = 0; i < steps; ++i) {
       const double angle = 2.0 * std::numbers::pi * i / steps;
-      mark(c.centre[0] + c.radius * std::cos(angle), c.centre[1] + c.radius * std::sin(angle));
+      mark({c.centre[0] + c.radius * std::cos(angle), c.centre[1] + c.radius * std::sin(angle)});
     }
   }
 
@@ -114,14 +112,12 @@ class Raster {
   [[nodiscard]] int nearest(double metres) const {
     return static_cast<int>(std::floor(metres / grid_.resolution + 0.5));
   }
-  [[nodiscard]] bool holds(int column, int row) const {
-    return column >= 0 && column < grid_.width && row >= 0 && row < grid_.height;
-  }
   [[nodiscard]] bool is_unknown(int column, int row) const {
-    return holds(column, row) && grid_.cell(column, row) == Cell::unknown;
+    return grid_.holds(column, row) && grid_.cell(column, row) == Cell::unknown;
   }
-  void mark(double x, double y) {
-    if (holds(column_of(x), row_of(y))) grid_.cell(column_of(x), row_of(y)) = Cell::occupied;
+  void mark(const Position& place) {
+    const int column = column_of(place[0]), row = row_of(place[1]);
+    if (grid_.holds(column, row)) grid_.cell(column, row) = Cell::occupied;
   }
 
   Position first_;
@@ -137,13 +133,9 @@ Raster drawn(const World& world, const Shapes& shapes, double resolution) {
 
 /// A cell for each column of voxels around some places.
 Raster raster_around(const std::vector<Position>& places, const CloudVoxels& cloud, const std::string& file) {
-  Position low = places.front(), high = places.front();
-  for (const Position& place : places) {
-    for (std::size_t axis = 0; axis < place.size(); ++axis) {
-      low[axis] = std::min(low[axis], place[axis] - near_places);
-      high[axis] = std::max(high[axis], place[axis] + near_places);
-    }
-  }
+  Bounds bounds;
+  for (const Position& place : places) bounds.add(place, near_places);
+  const auto& [low, high] = bounds;
   const double side = cloud.side();
   constexpr double most_columns = 64e6;
   if (!((high[0] - low[0]) / side * ((high[1] - low[1]) / side) <= most_columns))
@@ -171,18 +163,6 @@ Ground ground_at(const Position& place, const CloudVoxels& cloud, double floor) 
   return ground;
 }
 
-/// Marks the cells within a distance (m) of marked ones.
-std::vector<char> grown(const std::vector<char>& marks, double distance, const OccupancyGrid& grid) {
-  const NearCells near_cells(distance, grid);
-  std::vector<char> all(marks.size(), 0);
-  for (int row = 0; row < grid.height; ++row) {
-    for (int column = 0; column < grid.width; ++column) {
-      if (marks[grid.index(column, row)] != 0) near_cells.mark(column, row, all);
-    }
-  }
-  return all;
-}
-
 /// Marks what lies between marked cells, too: grows the marks, then shrinks them by as much. Of `within`
 /// only.
 std::vector<char> gaps_closed(const std::vector<char>& marks, const std::vector<char>& within,
@@ -198,16 +178,14 @@ std::vector<char> gaps_closed(const std::vector<char>& marks, const std::vector<
 std::vector<char> cells_over_floor(const OccupancyGrid& grid, const std::vector<char>& within,
                                    const CloudVoxels& cloud, double floor) {
   std::vector<char> is_floor(grid.cells.size(), 0), is_thing(grid.cells.size(), 0);
-  for (int row = 0; row < grid.height; ++row) {
-    for (int column = 0; column < grid.width; ++column) {
-      const std::size_t cell = grid.index(column, row);
-      if (within[cell] == 0) continue;
-      const Pose2 centre = grid.centre(column, row);
-      const Ground ground = ground_at({centre.x, centre.y}, cloud, floor);
-      is_floor[cell] = ground == Ground::floor ? 1 : 0;
-      is_thing[cell] = ground == Ground::thing ? 1 : 0;
-    }
-  }
+  for_each_cell(grid, [&](int column, int row) {
+    const std::size_t cell = grid.index(column, row);
+    if (within[cell] == 0) return;
+    const Pose2 centre = grid.centre(column, row);
+    const Ground ground = ground_at({centre.x, centre.y}, cloud, floor);
+    is_floor[cell] = ground == Ground::floor ? 1 : 0;
+    is_thing[cell] = ground == Ground::thing ? 1 : 0;
+  });
   std::vector<char> is_over_floor = gaps_closed(is_floor, within, grid);
   for (std::size_t i = 0; i < is_thing.size(); ++i) {
     if (is_thing[i] != 0) is_over_floor[i] = 0;

@@ -145,11 +145,23 @@ struct OccupancyGrid {
   [[nodiscard]] std::size_t index(int column, int row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column);
   }
+  /// Whether there is a cell there.
+  [[nodiscard]] bool holds(int column, int row) const {
+    return column >= 0 && row >= 0 && column < width && row < height;
+  }
   /// Centre of a cell in the map's frame.
   [[nodiscard]] Pose2 centre(int column, int row) const {
     return map_from_grid * Pose2{(column + 0.5) * resolution, (row + 0.5) * resolution, 0.0};
   }
 };
+
+/// Calls visit(column, row) for each cell, row by row.
+template <class Visit>
+void for_each_cell(const OccupancyGrid& grid, Visit visit) {
+  for (int row = 0; row < grid.height; ++row) {
+    for (int column = 0; column < grid.width; ++column) visit(column, row);
+  }
+}
 
 /// The cells under many places in the map's frame, in double precision.
 class CellsAt {

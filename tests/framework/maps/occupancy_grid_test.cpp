@@ -55,6 +55,15 @@ TEST(PackedCells, AreEqualIfEachOfThemIs) {
   EXPECT_NE(cells, PackedCells(4));
 }
 
+TEST(OccupancyGrid, VisitsTheCellsThatItHoldsRowByRow) {
+  const OccupancyGrid grid{{}, 0.5, 2, 3, PackedCells(6)};
+  std::vector<std::size_t> visited;
+  for_each_cell(grid, [&](int column, int row) { visited.push_back(grid.index(column, row)); });
+  EXPECT_EQ(visited, (std::vector<std::size_t>{0, 1, 2, 3, 4, 5}));
+  EXPECT_TRUE(grid.holds(0, 0) && grid.holds(1, 2));
+  EXPECT_FALSE(grid.holds(-1, 0) || grid.holds(0, -1) || grid.holds(2, 0) || grid.holds(0, 3));
+}
+
 TEST(CellsUnder, AreThoseWhereAMotionPutsPoints) {
   const OccupancyGrid grid = two_cells();
   // The cells lie from x 0.5 to 1, the first from y 2 to 2.5, the second from y 2.5 to 3.
