@@ -14,8 +14,8 @@ std::size_t whole(double amount) {
 
 }  // namespace
 
-std::optional<Sample> DroppedScans::disturb(Sample sample, Rng rng) {
-  if (rng.uniform() < share_) return std::nullopt;
+std::optional<Sample> drop(Sample sample, double share, Rng& rng) {
+  if (rng.uniform() < share) return std::nullopt;
   return sample;
 }
 
@@ -43,10 +43,10 @@ std::optional<Sample> RepeatedScans::disturb(Sample sample, Rng /*rng*/) {
   return sample;
 }
 
-std::optional<Sample> MountAngle::disturb(Sample sample, Rng /*rng*/) {
+std::optional<Sample> turn_mount(Sample sample, double angle_deg, Rng& /*rng*/) {
   Scan& scan = sample.observation.scan;
   // What the sensor sees ahead lies to its left: it is put to the right.
-  const Transform turn(Pose2{0.0, 0.0, -radians(angle_deg_)});
+  const Transform turn(Pose2{0.0, 0.0, -radians(angle_deg)});
   const auto turned = [&](const Point& p) {
     const Point q = turn({p.x - scan.origin.x, p.y - scan.origin.y, p.z});
     return Point{q.x + scan.origin.x, q.y + scan.origin.y, q.z};
@@ -57,7 +57,7 @@ std::optional<Sample> MountAngle::disturb(Sample sample, Rng /*rng*/) {
   return sample;
 }
 
-std::optional<Sample> UpsideDown::disturb(Sample sample, Rng /*rng*/) {
+std::optional<Sample> turn_over(Sample sample, double /*amount*/, Rng& /*rng*/) {
   Scan& scan = sample.observation.scan;
   for (Points* points : {&scan.hits, &scan.free_ends}) {
     for (float& y : points->y) y = 2.0F * scan.origin.y - y;
@@ -65,7 +65,7 @@ std::optional<Sample> UpsideDown::disturb(Sample sample, Rng /*rng*/) {
   return sample;
 }
 
-std::optional<Sample> Mirrored::disturb(Sample sample, Rng /*rng*/) {
+std::optional<Sample> mirror(Sample sample, double /*amount*/, Rng& /*rng*/) {
   Observation& observation = sample.observation;
   observation.scan.origin.y = -observation.scan.origin.y;
   for (Points* points : {&observation.scan.hits, &observation.scan.free_ends}) {
@@ -93,38 +93,6 @@ std::optional<Sample> StuckRanges::disturb(Sample sample, Rng /*rng*/) {
   return sample;
 }
 
-std::optional<Sample> Odometry::disturb(Sample sample, Rng rng) {
-  Pose3& odom_from_robot = sample.observation.odom_from_robot;
-  const Pose3 as_it_was = odom_from_robot;
-  if (last_) {
-    const Pose3 motion = inverse(last_->odom_from_robot) * as_it_was;
-    odom_from_robot = last_->disturbed_from_robot * measured(motion, rng);
-  }
-  last_ = {as_it_was, odom_from_robot};
-  return sample;
-}
-
-Pose3 StretchedWays::measured(const Pose3& motion, Rng& /*rng*/) const {
-  return {(1.0 + excess_) * motion.translation(), motion.rotation};
-}
-
-Pose3 PulledAside::measured(const Pose3& motion, Rng& /*rng*/) const {
-  const double turn = radians(deg_per_m_) * motion.translation().norm();
-  return {motion.translation(), composed(turn_about_z(-turn), motion.rotation)};
-}
-
-Pose3 SpinningWheels::measured(const Pose3& motion, Rng& rng) const {
-  const bool spins = rng.uniform() < share_;
-  const double excess = rng.uniform();
-  if (!spins) return motion;
-  return {(1.0 + excess) * motion.translation(),
-          composed(turn_about_z(excess * motion.heading()), motion.rotation)};
-}
-
-Pose3 ReversedMotions::measured(const Pose3& motion, Rng& rng) const {
-  return rng.uniform() < share_ ? inverse(motion) : motion;
-}
-
 std::optional<Sample> Jitter::disturb(Sample sample, Rng rng) {
   Pose3& odom_from_robot = sample.observation.odom_from_robot;
   const Pose3 as_it_was = odom_from_robot;
@@ -138,8 +106,29 @@ std::optional<Sample> Jitter::disturb(Sample sample, Rng rng) {
   return sample;
 }
 
-Pose3 LostMotions::measured(const Pose3& motion, Rng& rng) const {
-  return rng.uniform() < share_ ? Pose3{} : motion;
+Pose3 stretched(const Pose3& motion, double excess, Rng& /*rng*/) {
+  return {(1.0 + excess) * motion.translation(), motion.rotation};
+}
+
+Pose3 pulled_aside(const Pose3& motion, double deg_per_m, Rng& /*rng*/) {
+  const double turn = radians(deg_per_m) * motion.translation().norm();
+  return {motion.translation(), composed(turn_about_z(-turn), motion.rotation)};
+}
+
+Pose3 spun(const Pose3& motion, double share, Rng& rng) {
+  const bool spins = rng.uniform() < share;
+  const double excess = rng.uniform();
+  if (!spins) return motion;
+  return {(1.0 + excess) * motion.translation(),
+          composed(turn_about_z(excess * motion.heading()), motion.rotation)};
+}
+
+Pose3 reversed(const Pose3& motion, double share, Rng& rng) {
+  return rng.uniform() < share ? inverse(motion) : motion;
+}
+
+Pose3 lost(const Pose3& motion, double share, Rng& rng) {
+  return rng.uniform() < share ? Pose3{} : motion;
 }
 
 }  // namespace glocal::disturbed

@@ -11,15 +11,24 @@
 
 namespace glocal::disturbed {
 
-/// This share of the samples is lost.
-class DroppedScans final : public Disturbance {
+using SampleChange = std::optional<Sample>(Sample sample, double amount, Rng& rng);
+
+/// Of kinds that change each sample by itself.
+template <SampleChange& change>
+class OfEachSample final : public Disturbance {
  public:
-  DroppedScans(double share, Rng /*rng*/) : share_(share) {}
-  [[nodiscard]] std::optional<Sample> disturb(Sample sample, Rng rng) override;
+  OfEachSample(double amount, Rng /*rng*/) : amount_(amount) {}
+  [[nodiscard]] std::optional<Sample> disturb(Sample sample, Rng rng) override {
+    return change(std::move(sample), amount_, rng);
+  }
 
  private:
-  double share_;
+  double amount_;
 };
+
+/// This share of the samples is lost.
+[[nodiscard]] std::optional<Sample> drop(Sample sample, double share, Rng& rng);
+using DroppedScans = OfEachSample<drop>;
 
 /// Each scan comes so many samples too late: odometry and reference are those of its arrival. Where a segment
 /// begins nothing has arrived yet, and samples are lost.
@@ -46,28 +55,16 @@ class RepeatedScans final : public Disturbance {
 };
 
 /// The sensor looks this much, deg, to the left of where it is thought to look.
-class MountAngle final : public Disturbance {
- public:
-  MountAngle(double angle_deg, Rng /*rng*/) : angle_deg_(angle_deg) {}
-  [[nodiscard]] std::optional<Sample> disturb(Sample sample, Rng rng) override;
-
- private:
-  double angle_deg_;
-};
+[[nodiscard]] std::optional<Sample> turn_mount(Sample sample, double angle_deg, Rng& rng);
+using MountAngle = OfEachSample<turn_mount>;
 
 /// The sensor hangs upside down, and nobody has said so: left is right.
-class UpsideDown final : public Disturbance {
- public:
-  UpsideDown(double /*amount*/, Rng /*rng*/) {}
-  [[nodiscard]] std::optional<Sample> disturb(Sample sample, Rng rng) override;
-};
+[[nodiscard]] std::optional<Sample> turn_over(Sample sample, double amount, Rng& rng);
+using UpsideDown = OfEachSample<turn_over>;
 
 /// Scans and odometry have left and right the wrong way round: the robot sees and drives in a mirror.
-class Mirrored final : public Disturbance {
- public:
-  Mirrored(double /*amount*/, Rng /*rng*/) {}
-  [[nodiscard]] std::optional<Sample> disturb(Sample sample, Rng rng) override;
-};
+[[nodiscard]] std::optional<Sample> mirror(Sample sample, double amount, Rng& rng);
+using Mirrored = OfEachSample<mirror>;
 
 /// In this share of all directions, a degree wide and high, the first range that is read there stays for
 /// ever.
@@ -83,63 +80,6 @@ class StuckRanges final : public Disturbance {
   std::map<Direction, float> first_range_;  ///< m
 };
 
-/// Motions as odometry measures them, made into poses again.
-class Odometry : public Disturbance {
- public:
-  [[nodiscard]] std::optional<Sample> disturb(Sample sample, Rng rng) final;
-
- protected:
-  /// What is measured of the robot's motion since the sample before.
-  [[nodiscard]] virtual Pose3 measured(const Pose3& motion, Rng& rng) const = 0;
-
- private:
-  struct Last {
-    Pose3 odom_from_robot;       ///< As it was.
-    Pose3 disturbed_from_robot;  ///< As it is told.
-  };
-  std::optional<Last> last_;
-};
-
-/// Ways are measured this much too long, as a share.
-class StretchedWays final : public Odometry {
- public:
-  StretchedWays(double excess, Rng /*rng*/) : excess_(excess) {}
-
- private:
-  [[nodiscard]] Pose3 measured(const Pose3& motion, Rng& rng) const override;
-  double excess_;
-};
-
-/// The robot turns to the left by this much, deg/m, and its wheels do not notice.
-class PulledAside final : public Odometry {
- public:
-  PulledAside(double deg_per_m, Rng /*rng*/) : deg_per_m_(deg_per_m) {}
-
- private:
-  [[nodiscard]] Pose3 measured(const Pose3& motion, Rng& rng) const override;
-  double deg_per_m_;
-};
-
-/// In this share of the samples the wheels spin: way and turn are measured up to twice as large.
-class SpinningWheels final : public Odometry {
- public:
-  SpinningWheels(double share, Rng /*rng*/) : share_(share) {}
-
- private:
-  [[nodiscard]] Pose3 measured(const Pose3& motion, Rng& rng) const override;
-  double share_;
-};
-
-/// In this share of the samples the wheels count backwards.
-class ReversedMotions final : public Odometry {
- public:
-  ReversedMotions(double share, Rng /*rng*/) : share_(share) {}
-
- private:
-  [[nodiscard]] Pose3 measured(const Pose3& motion, Rng& rng) const override;
-  double share_;
-};
-
 /// Odometry is of a moment before its scan: by up to this share of the way since the last sample.
 class Jitter final : public Disturbance {
  public:
@@ -151,14 +91,52 @@ class Jitter final : public Disturbance {
   std::optional<Pose3> last_;  ///< odom_from_robot as it was.
 };
 
-/// In this share of the samples no motion is measured.
-class LostMotions final : public Odometry {
+/// What is measured of the robot's motion since the sample before.
+using Measured = Pose3(const Pose3& motion, double amount, Rng& rng);
+
+/// Motions as odometry measures them, made into poses again.
+template <Measured& measured>
+class Odometry final : public Disturbance {
  public:
-  LostMotions(double share, Rng /*rng*/) : share_(share) {}
+  Odometry(double amount, Rng /*rng*/) : amount_(amount) {}
+  [[nodiscard]] std::optional<Sample> disturb(Sample sample, Rng rng) override {
+    Pose3& odom_from_robot = sample.observation.odom_from_robot;
+    const Pose3 as_it_was = odom_from_robot;
+    if (last_) {
+      const Pose3 motion = inverse(last_->odom_from_robot) * as_it_was;
+      odom_from_robot = last_->disturbed_from_robot * measured(motion, amount_, rng);
+    }
+    last_ = {as_it_was, odom_from_robot};
+    return sample;
+  }
 
  private:
-  [[nodiscard]] Pose3 measured(const Pose3& motion, Rng& rng) const override;
-  double share_;
+  struct Last {
+    Pose3 odom_from_robot;       ///< As it was.
+    Pose3 disturbed_from_robot;  ///< As it is told.
+  };
+  double amount_;
+  std::optional<Last> last_;
 };
+
+/// Ways are measured this much too long, as a share.
+[[nodiscard]] Pose3 stretched(const Pose3& motion, double excess, Rng& rng);
+using StretchedWays = Odometry<stretched>;
+
+/// The robot turns to the left by this much, deg/m, and its wheels do not notice.
+[[nodiscard]] Pose3 pulled_aside(const Pose3& motion, double deg_per_m, Rng& rng);
+using PulledAside = Odometry<pulled_aside>;
+
+/// In this share of the samples the wheels spin: way and turn are measured up to twice as large.
+[[nodiscard]] Pose3 spun(const Pose3& motion, double share, Rng& rng);
+using SpinningWheels = Odometry<spun>;
+
+/// In this share of the samples the wheels count backwards.
+[[nodiscard]] Pose3 reversed(const Pose3& motion, double share, Rng& rng);
+using ReversedMotions = Odometry<reversed>;
+
+/// In this share of the samples no motion is measured.
+[[nodiscard]] Pose3 lost(const Pose3& motion, double share, Rng& rng);
+using LostMotions = Odometry<lost>;
 
 }  // namespace glocal::disturbed

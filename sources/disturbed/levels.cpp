@@ -11,23 +11,19 @@
 namespace glocal::disturbed {
 namespace {
 
-using Change = void(Readings&, double, Rng&);
+using ReadingsChange = void(Readings& readings, double amount, Rng& rng);
+
+template <ReadingsChange& change>
+std::optional<Sample> change_scan(Sample sample, double amount, Rng& rng) {
+  Readings readings(sample.observation.scan);
+  change(readings, amount, rng);
+  sample.observation.scan = readings.scan();
+  return sample;
+}
 
 /// Of kinds that change each scan by itself.
-template <Change& change>
-class OfEachScan final : public Disturbance {
- public:
-  OfEachScan(double amount, Rng /*rng*/) : amount_(amount) {}
-  std::optional<Sample> disturb(Sample sample, Rng rng) override {
-    Readings readings(sample.observation.scan);
-    change(readings, amount_, rng);
-    sample.observation.scan = readings.scan();
-    return sample;
-  }
-
- private:
-  double amount_;
-};
+template <ReadingsChange& change>
+using OfEachScan = OfEachSample<change_scan<change>>;
 
 template <class T>
 std::unique_ptr<Disturbance> made(double amount, Rng rng) {
