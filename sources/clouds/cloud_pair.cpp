@@ -13,15 +13,6 @@
 namespace glocal::clouds {
 namespace {
 
-void describe_pair(ParamVisitor& v, CloudPairParams& p) {
-  v.field("list", p.list,
-          {.doc = "CSV file of pairs: source, target, and the pose tx, ty, tz, qx, qy, qz, qw of the source "
-                  "in the target.",
-           .required = true});
-  v.field("number", p.number,
-          {.doc = "Which of its pairs, from 1. Map and observations must name the same.", .min = 1.0});
-}
-
 CloudPair pair_of(const CloudPairParams& params, const SourceSetup& setup) {
   const std::filesystem::path& file = params.list.resolved;
   setup.note_input(file);
@@ -40,12 +31,13 @@ PointCloudMap::Params target_of(const CloudPair& pair) {
 
 }  // namespace
 
-void describe(ParamVisitor& v, CloudPairMap::Params& p) {
-  describe_pair(v, p);
-}
-
-void describe(ParamVisitor& v, CloudPairScan::Params& p) {
-  describe_pair(v, p);
+void describe(ParamVisitor& v, CloudPairParams& p) {
+  v.field("list", p.list,
+          {.doc = "CSV file of pairs: source, target, and the pose tx, ty, tz, qx, qy, qz, qw of the source "
+                  "in the target.",
+           .required = true});
+  v.field("number", p.number,
+          {.doc = "Which of its pairs, from 1. Map and observations must name the same.", .min = 1.0});
 }
 
 CloudPairMap::CloudPairMap(const Params& params, const SourceSetup& setup)

@@ -15,11 +15,12 @@ struct CloudPairParams {
   FilePath list;
   int number = 1;
 };
+void describe(ParamVisitor& v, CloudPairParams& p);
 
 /// The target, as a map. The pair's pose is that of the source's sensor in it.
 class CloudPairMap final : public MapSource {
  public:
-  struct Params : CloudPairParams {};
+  using Params = CloudPairParams;
 
   /// Throws ConfigError for a list that cannot be read or has no such pair.
   CloudPairMap(const Params& params, const SourceSetup& setup);
@@ -28,12 +29,11 @@ class CloudPairMap final : public MapSource {
  private:
   PointCloudMap target_;
 };
-void describe(ParamVisitor& v, CloudPairMap::Params& p);
 
 /// The source, as the only scan of a drive.
 class CloudPairScan final : public ObservationSource {
  public:
-  struct Params : CloudPairParams {};
+  using Params = CloudPairParams;
 
   /// Throws ConfigError for a list that cannot be read or has no such pair.
   CloudPairScan(const Params& params, const SourceSetup& setup);
@@ -43,6 +43,5 @@ class CloudPairScan final : public ObservationSource {
   CloudPair pair_;
   bool is_read_ = false;
 };
-void describe(ParamVisitor& v, CloudPairScan::Params& p);
 
 }  // namespace glocal::clouds

@@ -128,21 +128,16 @@ CarmenDriveReader::CarmenDriveReader(const std::filesystem::path& file, double m
     sensors_.push_back({"/scan_rear", "laser_rear", false, fixed_pose(scans_, true)});
 }
 
-std::size_t CarmenDriveReader::sensor_of(const CarmenScan& scan) const {
-  return scan.laser == CarmenLaser::rlaser ? sensors_.size() - 1 : 0;
-}
-
 std::optional<DriveScan> CarmenDriveReader::next() {
   if (next_ == scans_.size()) return std::nullopt;
   const CarmenScan& scan = scans_[next_++];
-  const std::size_t sensor = sensor_of(scan);
   DriveScan out;
-  out.sensor = sensor;
+  out.sensor = scan.laser == CarmenLaser::rlaser ? sensors_.size() - 1 : 0;
   out.stamp_ns = nanoseconds_of(scan.stamp);
   out.odom_from_robot = scan.odom_from_robot;
   out.robot_from_sensor = scan.robot_from_laser;
   if (scan.map_from_robot) out.map_from_robot = *scan.map_from_robot;
-  out.rays = laser_scan(scan, max_range_, sensors_[sensor].frame);
+  out.rays = laser_scan(scan, max_range_, sensors_[out.sensor].frame);
   return out;
 }
 

@@ -35,15 +35,11 @@ class CarmenDriveReader final : public DriveReader {
   /// and for stamps that are before 1970 or after 2037.
   explicit CarmenDriveReader(const std::filesystem::path& file, double max_range = sick_range);
 
-  [[nodiscard]] const std::vector<DriveSensor>& sensors() const override { return sensors_; }
   [[nodiscard]] std::optional<DriveScan> next() override;
 
  private:
-  std::size_t sensor_of(const carmen::CarmenScan& scan) const;
-
   double max_range_;
   std::vector<carmen::CarmenScan> scans_;
-  std::vector<DriveSensor> sensors_;
   std::size_t next_ = 0;
 };
 

@@ -8,9 +8,8 @@
 namespace glocal::conversion {
 
 CloudFolderReader::CloudFolderReader(const clouds::DriveFiles& files, const Warn& warn, TellProgress progress)
-    : clouds_(clouds::drive_clouds(files, warn)),
-      sensors_{{"/points", "lidar", true, Pose3{}}},
-      progress_(std::move(progress)) {
+    : clouds_(clouds::drive_clouds(files, warn)), progress_(std::move(progress)) {
+  sensors_ = {{"/points", "lidar", true, Pose3{}}};
   for (const clouds::DriveCloud& cloud : clouds_) {
     if (!cloud.odometry)
       throw ConfigError(files.folder,

@@ -19,13 +19,11 @@ class CloudFolderReader final : public DriveReader {
   CloudFolderReader(
       const clouds::DriveFiles& files, const Warn& warn, TellProgress progress = [](double) {});
 
-  [[nodiscard]] const std::vector<DriveSensor>& sensors() const override { return sensors_; }
   /// Throws ConfigError where clouds::read_cloud() does.
   [[nodiscard]] std::optional<DriveScan> next() override;
 
  private:
   std::vector<clouds::DriveCloud> clouds_;
-  std::vector<DriveSensor> sensors_;
   std::size_t next_ = 0;
   TellProgress progress_;
 };

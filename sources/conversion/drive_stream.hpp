@@ -22,13 +22,16 @@ struct DriveSensor {
   std::optional<Pose3> robot_from_sensor;  ///< None if it moves on the robot.
 };
 
-/// A scan, and where all was when it was measured.
-struct DriveScan {
-  std::size_t sensor = 0;     ///< Index into DriveReader::sensors().
+/// A scan without its rays: when it was measured, and where all was then.
+struct TrackedScan {
   std::int64_t stamp_ns = 0;  ///< Since 1970, from 0 on; less than 2^31 s.
   Pose3 odom_from_robot;
   Pose3 robot_from_sensor;
-  std::optional<Pose3> map_from_robot;                   ///< The reference.
+  std::optional<Pose3> map_from_robot;  ///< The reference.
+};
+
+struct DriveScan : TrackedScan {
+  std::size_t sensor = 0;                                ///< Index into DriveReader::sensors().
   std::variant<bags::LaserScan, bags::PointCloud> rays;  ///< With stamp and frame.
 };
 
@@ -46,9 +49,12 @@ class DriveReader {
   DriveReader(const DriveReader&) = delete;
   DriveReader& operator=(const DriveReader&) = delete;
 
-  [[nodiscard]] virtual const std::vector<DriveSensor>& sensors() const = 0;
+  [[nodiscard]] const std::vector<DriveSensor>& sensors() const { return sensors_; }
   /// The next scan; none at the end. Throws ConfigError for what cannot be read.
   [[nodiscard]] virtual std::optional<DriveScan> next() = 0;
+
+ protected:
+  std::vector<DriveSensor> sensors_;
 };
 
 /// Where it goes.

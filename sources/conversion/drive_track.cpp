@@ -64,8 +64,7 @@ DriveTrack track_of(DriveReader& reader) {
     } else if (!track.scans.empty() && scan->stamp_ns <= track.scans.back().stamp_ns) {
       ++track.backwards;
     } else {
-      track.scans.push_back(
-          {scan->stamp_ns, scan->odom_from_robot, scan->robot_from_sensor, scan->map_from_robot});
+      track.scans.push_back(*scan);  // without its rays
     }
   }
   return track;
@@ -99,7 +98,9 @@ bags::PoseTrack own_references(const std::vector<TrackedScan>& scans) {
 }
 
 JoinedDrive::JoinedDrive(std::unique_ptr<DriveReader> reader, ReferencePoses references)
-    : reader_(std::move(reader)), references_(std::move(references)), sensors_{reader_->sensors().front()} {}
+    : reader_(std::move(reader)), references_(std::move(references)) {
+  sensors_ = {reader_->sensors().front()};
+}
 
 std::optional<DriveScan> JoinedDrive::next() {
   while (auto scan = reader_->next()) {

@@ -13,14 +13,6 @@
 
 namespace glocal::conversion {
 
-/// A scan without its rays.
-struct TrackedScan {
-  std::int64_t stamp_ns = 0;
-  Pose3 odom_from_robot;
-  Pose3 robot_from_sensor;
-  std::optional<Pose3> map_from_robot;
-};
-
 struct DriveTrack {
   std::vector<TrackedScan> scans;  ///< Stamps rise.
   std::size_t backwards = 0;       ///< Scans left out, as their stamps stand still or run backwards.
@@ -57,13 +49,11 @@ class JoinedDrive final : public DriveReader {
  public:
   JoinedDrive(std::unique_ptr<DriveReader> reader, ReferencePoses references);
 
-  [[nodiscard]] const std::vector<DriveSensor>& sensors() const override { return sensors_; }
   [[nodiscard]] std::optional<DriveScan> next() override;
 
  private:
   std::unique_ptr<DriveReader> reader_;
   ReferencePoses references_;
-  std::vector<DriveSensor> sensors_;
 };
 
 }  // namespace glocal::conversion

@@ -26,7 +26,6 @@ class RecordingDriveReader final : public DriveReader {
       const std::filesystem::path& path, const bags::DriveTopics& topics, bags::Damage damage, Warn warn,
       TellProgress progress = [](double) {});
 
-  [[nodiscard]] const std::vector<DriveSensor>& sensors() const override { return sensors_; }
   [[nodiscard]] std::optional<DriveScan> next() override;
 
  private:
@@ -37,7 +36,6 @@ class RecordingDriveReader final : public DriveReader {
   Warn warn_;
   bags::Recording recording_;
   bags::DriveContents contents_;
-  std::vector<DriveSensor> sensors_;
   std::size_t without_pose_ = 0, unreadable_ = 0;
 };
 

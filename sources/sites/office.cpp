@@ -8,23 +8,6 @@
 namespace glocal::sites {
 namespace {
 
-void describe_office(ParamVisitor& v, OfficeParams& p) {
-  v.field("side", p.side, {.doc = "Side of the office, a square.", .unit = "m", .min = 20.0, .max = 2000.0});
-  v.field("length", p.length,
-          {.doc = "Way driven; auto is five times the side, and at most 3000 m.",
-           .unit = "m",
-           .min = 10.0,
-           .max = 1e5});
-  v.field(
-      "number", p.number,
-      {.doc = "Which of the offices of this size: fixes rooms, furniture and way. Map and drive must name "
-              "the same."});
-  v.field(
-      "furniture", p.furniture,
-      {.doc = "Another furniture in the same rooms, as on another floor; 0 is that of the number. Map and "
-              "drive must name the same."});
-}
-
 simulation::World office_of(const OfficeParams& p) {
   return office_site(p.side, p.length.value_or(usual_length(p.side)), p.number,
                      p.furniture == 0 ? p.number : p.furniture);
@@ -47,8 +30,25 @@ double usual_length(double side) {
   return std::min(drive_per_side * side, longest_drive);
 }
 
+void describe(ParamVisitor& v, OfficeParams& p) {
+  v.field("side", p.side, {.doc = "Side of the office, a square.", .unit = "m", .min = 20.0, .max = 2000.0});
+  v.field("length", p.length,
+          {.doc = "Way driven; auto is five times the side, and at most 3000 m.",
+           .unit = "m",
+           .min = 10.0,
+           .max = 1e5});
+  v.field(
+      "number", p.number,
+      {.doc = "Which of the offices of this size: fixes rooms, furniture and way. Map and drive must name "
+              "the same."});
+  v.field(
+      "furniture", p.furniture,
+      {.doc = "Another furniture in the same rooms, as on another floor; 0 is that of the number. Map and "
+              "drive must name the same."});
+}
+
 void describe(ParamVisitor& v, OfficeMap::Params& p) {
-  describe_office(v, p);
+  describe(v, static_cast<OfficeParams&>(p));
   v.field("resolution", p.resolution,
           {.doc = "Side of a cell of the map.", .unit = "m", .min = 0.01, .max = 1.0});
 }
@@ -58,10 +58,6 @@ MapData OfficeMap::load() {
   map.grid = simulation::plan_of(office_of(params_), params_.resolution, "");
   map.points = occupied_centres(map.grid);
   return map;
-}
-
-void describe(ParamVisitor& v, OfficeDrive::Params& p) {
-  describe_office(v, p);
 }
 
 OfficeDrive::OfficeDrive(const Params& params, const SourceSetup& setup)

@@ -18,6 +18,7 @@ struct OfficeParams {
   std::uint64_t number = 1;
   std::uint64_t furniture = 0;  ///< 0: as the number.
 };
+void describe(ParamVisitor& v, OfficeParams& p);
 
 /// How the robot drives and measures there.
 [[nodiscard]] simulation::LaserDriveParams office_drive();
@@ -43,7 +44,7 @@ void describe(ParamVisitor& v, OfficeMap::Params& p);
 /// A drive past all its rooms, with a planar laser.
 class OfficeDrive final : public ObservationSource {
  public:
-  struct Params : OfficeParams {};
+  using Params = OfficeParams;
 
   OfficeDrive(const Params& params, const SourceSetup& setup);
   [[nodiscard]] std::optional<Sample> next() override { return simulation_.next(); }
@@ -52,6 +53,5 @@ class OfficeDrive final : public ObservationSource {
  private:
   simulation::Simulation simulation_;
 };
-void describe(ParamVisitor& v, OfficeDrive::Params& p);
 
 }  // namespace glocal::sites

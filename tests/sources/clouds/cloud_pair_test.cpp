@@ -34,12 +34,12 @@ class CloudPairTest : public testing::Test {
 };
 
 TEST_F(CloudPairTest, HasTheTargetAsMap) {
-  EXPECT_EQ(CloudPairMap({{list_, 2}}, setup_).load().points, cloud(4.0F));
+  EXPECT_EQ(CloudPairMap({list_, 2}, setup_).load().points, cloud(4.0F));
   EXPECT_THAT(inputs_, ElementsAre("pairs.csv", "4.pcd"));
 }
 
 TEST_F(CloudPairTest, HasTheSourceAsItsOnlyScan) {
-  CloudPairScan scan({{list_, 2}}, setup_);
+  CloudPairScan scan({list_, 2}, setup_);
   const auto sample = scan.next();
   ASSERT_TRUE(sample);
   EXPECT_EQ(sample->observation.scan.hits, cloud(3.0F));
@@ -51,7 +51,7 @@ TEST_F(CloudPairTest, HasTheSourceAsItsOnlyScan) {
 }
 
 TEST_F(CloudPairTest, RefusesAPairThatIsNotThere) {
-  const CloudPairScan::Params third = {{list_, 3}};
+  const CloudPairScan::Params third = {list_, 3};
   EXPECT_THAT(test::error_of([&] { CloudPairScan(third, setup_); }),
               testing::HasSubstr("pairs.csv: error: has 2 pairs, and no pair 3"));
 }

@@ -155,12 +155,11 @@ DriveScan drive_scan(const Pose3& robot_from_sensor) {
   laser.range_min = 0.25F;
   laser.range_max = 10.0F;
   laser.ranges = {1.0F, infinite, 0.125F, std::nanf(""), 12.0F};
-  return {.sensor = 0,
-          .stamp_ns = 5'000'000'000,
-          .odom_from_robot = {},
-          .robot_from_sensor = robot_from_sensor,
-          .map_from_robot = std::nullopt,
-          .rays = laser};
+  DriveScan scan;
+  scan.stamp_ns = 5'000'000'000;
+  scan.robot_from_sensor = robot_from_sensor;
+  scan.rays = laser;
+  return scan;
 }
 
 TEST_F(Conversion, LogsHaveTheLargestRangeWhereNothingWasMet) {
