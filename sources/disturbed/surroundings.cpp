@@ -68,6 +68,16 @@ double distance_along(const Pose2& direction, const Pose2& at) {
   return along - std::sqrt(radius * radius - beside * beside);
 }
 
+/// Whoever leaves the robot's surroundings comes back from the other side.
+void walk(Pose2& at, const Pose2& odom_from_robot, Rng& rng) {
+  at.theta = wrap_angle(at.theta + rng.uniform(-most_turn, most_turn));
+  at = at * Pose2{stride, 0.0, 0.0};
+  const double away = std::hypot(at.x - odom_from_robot.x, at.y - odom_from_robot.y);
+  if (away <= reach) return;
+  at.x = odom_from_robot.x - (at.x - odom_from_robot.x) * reach / away;
+  at.y = odom_from_robot.y - (at.y - odom_from_robot.y) * reach / away;
+}
+
 }  // namespace
 
 std::optional<Sample> Panes::disturb(Sample sample, Rng /*rng*/) {
@@ -101,36 +111,26 @@ void Mirrors::change(Reading& reading, const Readings& before, Rng /*of_pane*/) 
   before.set_range(reading, beyond ? reading.range + static_cast<float>(*beyond) : before.farthest());
 }
 
-People::People(double people, Rng /*rng*/) : people_(static_cast<std::size_t>(std::lround(people))) {}
-
-/// Whoever leaves the robot's surroundings comes back from the other side.
-void People::walk(Person& person, const Pose2& odom_from_robot, Rng& rng) const {
-  Pose2& at = person.odom_from_person;
-  at.theta = wrap_angle(at.theta + rng.uniform(-most_turn, most_turn));
-  at = at * Pose2{stride, 0.0, 0.0};
-  const double away = std::hypot(at.x - odom_from_robot.x, at.y - odom_from_robot.y);
-  if (away <= reach) return;
-  at.x = odom_from_robot.x - (at.x - odom_from_robot.x) * reach / away;
-  at.y = odom_from_robot.y - (at.y - odom_from_robot.y) * reach / away;
-}
+People::People(double people, Rng /*rng*/)
+    : odom_from_people_(static_cast<std::size_t>(std::lround(people))) {}
 
 std::optional<Sample> People::disturb(Sample sample, Rng rng) {
   const Pose2 odom_from_robot = seen_from_above(sample.observation.odom_from_robot);
-  for (Person& person : people_) {
+  for (Pose2& odom_from_person : odom_from_people_) {
     if (are_placed_) {
-      walk(person, odom_from_robot, rng);
+      walk(odom_from_person, odom_from_robot, rng);
       continue;
     }
     const double bearing = rng.uniform(-std::numbers::pi, std::numbers::pi);
     const double away = reach * std::sqrt(rng.uniform());
-    person.odom_from_person = odom_from_robot * Pose2{away * std::cos(bearing), away * std::sin(bearing),
-                                                      rng.uniform(-std::numbers::pi, std::numbers::pi)};
+    odom_from_person = odom_from_robot * Pose2{away * std::cos(bearing), away * std::sin(bearing),
+                                               rng.uniform(-std::numbers::pi, std::numbers::pi)};
   }
   are_placed_ = true;
   Readings readings(sample.observation.scan);
   const Point& origin = readings.origin();
-  for (const Person& person : people_) {
-    const Pose2 in_robot = inverse(odom_from_robot) * person.odom_from_person;
+  for (const Pose2& odom_from_person : odom_from_people_) {
+    const Pose2 in_robot = inverse(odom_from_robot) * odom_from_person;
     const Pose2 at{in_robot.x - origin.x, in_robot.y - origin.y, 0.0};
     if (std::hypot(at.x, at.y) < radius + elbow_room) continue;
     for (Reading& reading : readings.all()) {

@@ -51,12 +51,7 @@ class People final : public Disturbance {
   [[nodiscard]] std::optional<Sample> disturb(Sample sample, Rng rng) override;
 
  private:
-  struct Person {
-    Pose2 odom_from_person;  ///< He walks along its x axis.
-  };
-  void walk(Person& person, const Pose2& odom_from_robot, Rng& rng) const;
-
-  std::vector<Person> people_;
+  std::vector<Pose2> odom_from_people_;  ///< Each walks along his x axis.
   bool are_placed_ = false;
 };
 

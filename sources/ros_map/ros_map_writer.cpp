@@ -3,26 +3,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 
 namespace glocal::ros_map {
 namespace {
 
-char grey_of(Cell cell) {
-  switch (cell) {
-    case Cell::occupied:
-      return '\0';
-    case Cell::free:
-      return static_cast<char>(254);
-    case Cell::unknown:
-      break;
-  }
-  return static_cast<char>(205);
-}
+/// Of cells that are unknown, free and occupied, as Cell has them in order.
+constexpr std::array<unsigned char, 3> greys = {205, 254, 0};
 
 /// The rows of a grid from the highest down.
 void append_rows(const OccupancyGrid& grid, int from, int count, std::string& grey) {
   for (int row = from; row > from - count; --row) {
-    for (int column = 0; column < grid.width; ++column) grey += grey_of(grid.cell(column, row));
+    for (int column = 0; column < grid.width; ++column)
+      grey += static_cast<char>(greys[static_cast<std::size_t>(grid.cell(column, row))]);
   }
 }
 

@@ -72,13 +72,11 @@ std::vector<std::size_t> cells_under(const Rectangle& box, const OccupancyGrid& 
 
 Rectangle drawn_box(const ClearRegion& region, Rng& rng) {
   const Position centre = region.draw(rng);
-  Rectangle box;
-  box.centre = {centre[0], centre[1]};
-  box.size = {rng.uniform(0.3, 1.0), rng.uniform(0.3, 1.0)};
-  box.angle_deg = rng.uniform(0.0, 180.0);
-  box.height = rng.uniform(0.5, 1.5);
-  box.presence.on_map = false;
-  return box;
+  return {.centre = {centre[0], centre[1]},
+          .size = {rng.uniform(0.3, 1.0), rng.uniform(0.3, 1.0)},
+          .angle_deg = rng.uniform(0.0, 180.0),
+          .height = rng.uniform(0.5, 1.5),
+          .presence = {.on_map = false}};
 }
 
 }  // namespace
@@ -86,12 +84,10 @@ Rectangle drawn_box(const ClearRegion& region, Rng& rng) {
 std::vector<Walker> drawn_people(int count, const ClearRegion& region, Rng rng) {
   std::vector<Walker> people;
   for (int i = 0; i < count; ++i) {
-    Walker walker;
     const Position from = region.draw(rng);
-    walker.points = region.way(from, region.draw(rng));
-    walker.points.insert(walker.points.begin(), from);
-    walker.speed = rng.uniform(0.4, 1.2);
-    people.push_back(std::move(walker));
+    std::vector<Position> way = region.way(from, region.draw(rng));
+    way.insert(way.begin(), from);
+    people.push_back({.points = std::move(way), .speed = rng.uniform(0.4, 1.2)});
   }
   return people;
 }

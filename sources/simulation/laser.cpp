@@ -17,10 +17,6 @@ void describe(ParamVisitor& v, LaserParams& p) {
   v.require(p.step_deg <= p.fov_deg, "step_deg", "must not be above fov_deg");
 }
 
-Pose2 robot_from_laser(const LaserParams& laser) {
-  return {laser.x, laser.y, wrap_angle(radians(laser.yaw_deg))};
-}
-
 carmen::CarmenScan simulated_scan(const LaserParams& laser, const Pose2& map_from_robot,
                                   const RayDistance& ray_distance, Rng rng) {
   carmen::CarmenScan scan;
@@ -28,7 +24,7 @@ carmen::CarmenScan simulated_scan(const LaserParams& laser, const Pose2& map_fro
   scan.start_angle = -radians(laser.fov_deg) / 2.0;
   scan.angle_step = radians(laser.step_deg);
   scan.max_range = laser.max_range;
-  scan.robot_from_laser = robot_from_laser(laser);
+  scan.robot_from_laser = {laser.x, laser.y, wrap_angle(radians(laser.yaw_deg))};
   scan.map_from_robot = map_from_robot;
   const Pose2 map_from_laser = map_from_robot * scan.robot_from_laser;
   scan.ranges.resize(static_cast<std::size_t>(std::floor(laser.fov_deg / laser.step_deg + 1e-9)) + 1);

@@ -23,8 +23,6 @@ struct LaserParams {
 };
 void describe(ParamVisitor& v, LaserParams& p);
 
-[[nodiscard]] Pose2 robot_from_laser(const LaserParams& laser);
-
 /// Distance (m) from a place on the map along a unit vector to what a ray meets: infinite if it meets
 /// nothing, not a number if nobody knows.
 using RayDistance = std::function<double(const Position& origin, const Position& direction)>;

@@ -49,7 +49,7 @@ void add_box(Shapes& shapes, const Rectangle& r) {
     const Pose2 corner = world_from_box * Pose2{signs[i][0] * r.size[0], signs[i][1] * r.size[1], 0.0};
     top.corners[i] = {corner.x, corner.y};
   }
-  add_wall(shapes, {{top.corners.begin(), top.corners.end()}, true, r.height, {}});
+  add_wall(shapes, {{top.corners.begin(), top.corners.end()}, true, r.height});
   shapes.tops.push_back(top);
 }
 

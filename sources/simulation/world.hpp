@@ -24,7 +24,7 @@ struct Wall {
   std::vector<Position> points;
   bool closed = false;
   double height = usual_height;
-  Presence presence;
+  Presence presence = {};
 };
 void describe(ParamVisitor& v, Wall& p);
 
@@ -34,7 +34,7 @@ struct Rectangle {
   std::vector<double> size;
   double angle_deg = 0.0;
   double height = usual_height;
-  Presence presence;
+  Presence presence = {};
 };
 void describe(ParamVisitor& v, Rectangle& p);
 
@@ -43,7 +43,7 @@ struct RoundThing {
   std::vector<double> centre;
   double radius = 0.0;
   double height = usual_height;
-  Presence presence;
+  Presence presence = {};
 };
 void describe(ParamVisitor& v, RoundThing& p);
 

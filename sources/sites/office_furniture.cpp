@@ -237,19 +237,14 @@ void put_own(Layout& layout) {
 void add_to_world(const Piece& piece, const Frame& frame, simulation::Presence presence, World& world) {
   const Position at = frame.at(piece.centre[0], piece.centre[1]);
   if (piece.kind == Kind::chair) {
-    simulation::RoundThing chair;
-    chair.centre = {at[0], at[1]};
-    chair.radius = piece.size[0] / 2.0;
-    chair.presence = presence;
-    world.circles.push_back(chair);
+    world.circles.push_back({.centre = {at[0], at[1]}, .radius = piece.size[0] / 2.0, .presence = presence});
     return;
   }
-  simulation::Rectangle box;
-  box.centre = {at[0], at[1]};
-  box.size = {piece.size[0], piece.size[1]};
-  box.angle_deg = degrees(std::atan2(frame.x_axis[1], frame.x_axis[0])) + piece.angle_deg;
-  box.presence = presence;
-  world.rectangles.push_back(box);
+  world.rectangles.push_back(
+      {.centre = {at[0], at[1]},
+       .size = {piece.size[0], piece.size[1]},
+       .angle_deg = degrees(std::atan2(frame.x_axis[1], frame.x_axis[0])) + piece.angle_deg,
+       .presence = presence});
 }
 
 /// What has been put is on the map, if anybody has been there to map it. Since then some pieces have been

@@ -175,10 +175,8 @@ class RowOfRooms {
 
 /// A box between two places.
 void add_box(const simulation::Position& a, const simulation::Position& b, World& world) {
-  simulation::Rectangle box;
-  box.centre = {(a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0};
-  box.size = {std::abs(b[0] - a[0]), std::abs(b[1] - a[1])};
-  world.rectangles.push_back(box);
+  world.rectangles.push_back({.centre = {(a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0},
+                              .size = {std::abs(b[0] - a[0]), std::abs(b[1] - a[1])}});
 }
 
 /// A wall around a line along x, or along y.
@@ -203,11 +201,10 @@ void add_front(const Room& room, World& world) {
 /// A leaf, which turns about the side of the door that is nearer to a wall.
 void add_leaf(const Room& room, double angle, simulation::Presence presence, World& world) {
   const double hinge = room.door - door_width / 2.0;
-  simulation::Wall leaf;
-  leaf.points = {room.frame.at(hinge, 0.0),
-                 room.frame.at(hinge + door_width * std::cos(angle), door_width * std::sin(angle))};
-  leaf.presence = presence;
-  world.walls.push_back(leaf);
+  world.walls.push_back(
+      {.points = {room.frame.at(hinge, 0.0),
+                  room.frame.at(hinge + door_width * std::cos(angle), door_width * std::sin(angle))},
+       .presence = presence});
 }
 
 void add_door(const Room& room, Rng rng, World& world) {
