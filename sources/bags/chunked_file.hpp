@@ -21,8 +21,7 @@ namespace glocal::bags {
 struct ChunkSpan {
   std::uint64_t offset = 0;   ///< Of its first byte in the file.
   std::uint64_t size = 0;     ///< Bytes in the file.
-  std::int64_t first_ns = 0;  ///< Stamps of its messages, as the file says them.
-  std::int64_t last_ns = 0;
+  std::int64_t first_ns = 0;  ///< Stamp of its earliest message, as the file says it.
 };
 
 /// A message in a chunk.

@@ -103,8 +103,9 @@ class McapFile final : public ChunkedFile {
       note_channel_or_schema(record.op, fields);
     } else if (record.op == McapOp::chunk) {
       FieldReader fields = reader(file_.peek(begin));
-      const std::int64_t first = stamp(fields), last = stamp(fields);
-      chunks_.push_back({at, record_head + record.size, first, last});
+      const std::int64_t first = stamp(fields);
+      static_cast<void>(stamp(fields));  // The last one must be a stamp, too.
+      chunks_.push_back({at, record_head + record.size, first});
     } else if (record.op == McapOp::message_index && !chunks_.empty()) {
       indexed_[chunks_.back().offset].insert(reader(file_.peek(begin)).number<std::uint16_t>());
     } else if (record.op == McapOp::message) {
@@ -122,12 +123,11 @@ class McapFile final : public ChunkedFile {
       file_.refuse(
           at, fmt::format("a message of {} bytes is announced, at most {} are allowed", size, largest_chunk));
     if (at != loose_messages_end_ || chunks_.back().size > enough) {
-      chunks_.push_back({at, size, stamp_ns, stamp_ns});
+      chunks_.push_back({at, size, stamp_ns});
     } else {
       ChunkSpan& span = chunks_.back();
       span.size += size;
       span.first_ns = std::min(span.first_ns, stamp_ns);
-      span.last_ns = std::max(span.last_ns, stamp_ns);
     }
     loose_messages_end_ = at + size;
   }

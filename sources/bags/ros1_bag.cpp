@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <map>
 #include <set>
-#include <tuple>
 #include <utility>
 
 #include "glocal/words.hpp"
@@ -67,7 +66,7 @@ class Ros1Bag final : public ChunkedFile {
   Ros1Bag(const std::filesystem::path& file, const Reading& reading) : ChunkedFile(file, reading) {
     check_version();
     scan();
-    for (ChunkSpan& span : chunks_) find_times_and_connections(span);
+    for (ChunkSpan& span : chunks_) find_time_and_connections(span);
     indexed_.clear();
     is_open_ = true;
   }
@@ -128,11 +127,10 @@ class Ros1Bag final : public ChunkedFile {
                                        shown(header.text("encryptor"))));
         break;
       case Ros1Op::chunk:
-        chunks_.push_back({at, record.data + record.data_size - at, 0, 0});
+        chunks_.push_back({at, record.data + record.data_size - at, 0});
         break;
       case Ros1Op::chunk_info:
-        times_[header.number<std::uint64_t>("chunk_pos")] = {header.time("start_time"),
-                                                             header.time("end_time")};
+        note_chunk_info(header);
         break;
       case Ros1Op::index:
         if (!chunks_.empty()) note_index(header, record);
@@ -143,6 +141,12 @@ class Ros1Bag final : public ChunkedFile {
       default:
         break;
     }
+  }
+
+  void note_chunk_info(const HeaderFields& header) {
+    const std::int64_t first = header.time("start_time");
+    static_cast<void>(header.time("end_time"));  // It must be there, too.
+    first_times_[header.number<std::uint64_t>("chunk_pos")] = first;
   }
 
   void note_connection(const HeaderFields& header, std::string_view data, const Place& place) {
@@ -159,30 +163,24 @@ class Ros1Bag final : public ChunkedFile {
     constexpr std::uint64_t entry_size = 12;
     const auto count = header.number<std::uint32_t>("count");
     if (count == 0 || record.data_size != entry_size * count) return;
-    const auto stamp_at = [&](std::uint64_t offset) {
-      FieldReader fields(file_.peek(offset), {file_.name(), offset});
-      const auto s = fields.number<std::uint32_t>();
-      return static_cast<std::int64_t>(s) * 1'000'000'000 + fields.number<std::uint32_t>();
-    };
-    const std::int64_t first = stamp_at(record.data);
-    const std::int64_t last = stamp_at(record.data + record.data_size - entry_size);
-    Indexed& indexed = indexed_.try_emplace(chunks_.back().offset, Indexed{first, last, {}}).first->second;
+    FieldReader fields(file_.peek(record.data), {file_.name(), record.data});
+    const auto s = fields.number<std::uint32_t>();
+    const std::int64_t first = static_cast<std::int64_t>(s) * 1'000'000'000 + fields.number<std::uint32_t>();
+    Indexed& indexed = indexed_.try_emplace(chunks_.back().offset, Indexed{first, {}}).first->second;
     indexed.first_ns = std::min(indexed.first_ns, first);
-    indexed.last_ns = std::max(indexed.last_ns, last);
     indexed.connections.insert(header.number<std::uint32_t>("conn"));
   }
 
   /// Only chunks of which no index says enough are unpacked for it.
-  void find_times_and_connections(ChunkSpan& span) {
-    const auto times = times_.find(span.offset);
+  void find_time_and_connections(ChunkSpan& span) {
+    const auto first_time = first_times_.find(span.offset);
     const auto indexed = indexed_.find(span.offset);
-    if (times != times_.end()) {
-      std::tie(span.first_ns, span.last_ns) = times->second;
+    if (first_time != first_times_.end()) {
+      span.first_ns = first_time->second;
     } else if (indexed != indexed_.end() && knows_all(indexed->second.connections)) {
       span.first_ns = indexed->second.first_ns;
-      span.last_ns = indexed->second.last_ns;
     } else {
-      take_times_from_messages(span);
+      take_time_from_messages(span);
     }
   }
 
@@ -192,13 +190,12 @@ class Ros1Bag final : public ChunkedFile {
   }
 
   /// For chunks that no index knows.
-  void take_times_from_messages(ChunkSpan& span) {
+  void take_time_from_messages(ChunkSpan& span) {
     const auto chunk = load_if_whole(span);
     if (!chunk) return;
     for (const ChunkEntry& entry : chunk->entries) {
       const bool is_first = &entry == &chunk->entries.front();
       span.first_ns = is_first ? entry.stamp_ns : std::min(span.first_ns, entry.stamp_ns);
-      span.last_ns = is_first ? entry.stamp_ns : std::max(span.last_ns, entry.stamp_ns);
     }
   }
 
@@ -235,10 +232,10 @@ class Ros1Bag final : public ChunkedFile {
     return found->second;
   }
 
-  std::map<std::uint64_t, std::pair<std::int64_t, std::int64_t>> times_;  ///< Of chunks, by offset.
+  std::map<std::uint64_t, std::int64_t> first_times_;  ///< Of chunks, by offset.
   /// What the indexes behind a chunk say of it.
   struct Indexed {
-    std::int64_t first_ns = 0, last_ns = 0;
+    std::int64_t first_ns = 0;
     std::set<std::uint32_t> connections = {};
   };
   std::map<std::uint64_t, Indexed> indexed_;  ///< By offset of the chunk.
