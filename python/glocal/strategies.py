@@ -292,7 +292,7 @@ def _default_of(field: dataclasses.Field[Any]) -> Any:
 
 
 def _field_of(field: dataclasses.Field[Any], hint: Any) -> _Field:
-    facts = field.metadata.get("glocal")
+    facts: _Field | None = field.metadata.get("glocal")
     if facts is None or not facts.doc.strip():
         raise TypeError(f"the parameter '{field.name}' has no sentence that says what it is for; give it with glocal.param()")
     kind, choices = _core_type(hint)
