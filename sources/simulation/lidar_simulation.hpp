@@ -7,7 +7,7 @@
 #include "glocal/catalog.hpp"
 #include "glocal/strategies.hpp"
 #include "sources/simulation/drive_params.hpp"
-#include "sources/simulation/drive_simulator.hpp"
+#include "sources/simulation/driving_robot.hpp"
 #include "sources/simulation/scene.hpp"
 
 namespace glocal::simulation {

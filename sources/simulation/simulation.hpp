@@ -9,12 +9,17 @@
 
 #include "glocal/catalog.hpp"
 #include "glocal/strategies.hpp"
-#include "sources/simulation/drive_simulator.hpp"
+#include "sources/carmen/carmen_parser.hpp"
+#include "sources/carmen/log_drive.hpp"
+#include "sources/simulation/driving_robot.hpp"
+#include "sources/simulation/near_shapes.hpp"
+#include "sources/simulation/planned_drive.hpp"
 #include "sources/simulation/world.hpp"
 
 namespace glocal::simulation {
 
-/// A drive through a simulated world or a map, with a planar laser.
+/// A drive through a simulated world or a map, with a planar laser. Rays that meet nothing within the laser's
+/// range read max_range, those that are lost in unknown cells of a map 0.
 class Simulation final : public ObservationSource {
  public:
   using Params = LaserDriveParams;
@@ -29,8 +34,18 @@ class Simulation final : public ObservationSource {
   [[nodiscard]] std::optional<Recording> recording() const override;
 
  private:
+  Simulation(const Params& params, PlannedDrive drive, std::uint64_t seed);
+
+  [[nodiscard]] carmen::CarmenScan measured(const DriveStep& step) const;
+
+  LaserParams laser_;
   carmen::LogParams scan_limits_;
-  DriveSimulator simulator_;
+  double max_unknown_;
+  World world_;
+  std::optional<OccupancyGrid> map_;
+  Vector3 origin_;  ///< What all places but those of scans are relative to.
+  NearShapes reality_;
+  DrivingRobot robot_;
 };
 
 /// The map of a simulated world: its outlines, one cell thick, and the free space they enclose; or its

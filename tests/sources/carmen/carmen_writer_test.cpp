@@ -38,14 +38,10 @@ TEST(CarmenWriter, ASimulatedDriveReadsBackAsItWas) {
   params.laser.yaw_deg = 10.0;
   SourceSetup setup;
   setup.seed = 5;
-  simulation::DriveSimulator simulator(params, setup);
-  std::string lines;
-  while (const auto scan = simulator.next()) lines += carmen_lines(*scan);
-
-  LogParams log = simulation::scan_limits(params.laser);
-  log.path = test::file_path(folder.write("drive.log", lines));
-  CarmenLog recorded(log, setup);
   simulation::Simulation simulated(params, setup);
+  LogParams log = simulation::scan_limits(params.laser);
+  log.path = test::file_path(folder.write("drive.log", simulated.recording()->content));
+  CarmenLog recorded(log, setup);
   const auto a = test::all_of(simulated);
   const auto b = test::all_of(recorded);
   ASSERT_EQ(a.size(), b.size());

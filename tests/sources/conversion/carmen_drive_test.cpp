@@ -11,7 +11,6 @@
 #include "sources/bags/bag_drive.hpp"
 #include "sources/bags/mcap_writer.hpp"
 #include "sources/carmen/carmen_log.hpp"
-#include "sources/carmen/carmen_writer.hpp"
 #include "sources/conversion/recording_drive.hpp"
 #include "sources/simulation/simulation.hpp"
 
@@ -38,10 +37,7 @@ class Conversion : public testing::Test {
     params.laser.outliers = 0.02;
     params.laser.x = 0.2;
     params.laser.yaw_deg = 10.0;
-    simulation::DriveSimulator simulator(params, {.seed = 5});
-    std::string lines;
-    while (const auto scan = simulator.next()) lines += carmen::carmen_lines(*scan);
-    return folder_.write("drive.log", lines);
+    return folder_.write("drive.log", simulation::Simulation(params, {.seed = 5}).recording()->content);
   }
   std::filesystem::path as_mcap(const std::filesystem::path& log) {
     CarmenDriveReader reader(log);

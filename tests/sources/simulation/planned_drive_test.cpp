@@ -11,7 +11,6 @@
 #include "glocal/yaml.hpp"
 #include "octree_files.hpp"
 #include "sources/plan.hpp"
-#include "sources/simulation/drive_simulator.hpp"
 #include "sources/simulation/lidar_simulation.hpp"
 #include "sources/simulation/scene.hpp"
 #include "sources/simulation/simulation.hpp"
@@ -121,18 +120,19 @@ TEST(PlannedDrive, InAMapFarAwayIsTheSameFarAway) {
     params.way_points = {{x + 1.25, y + 1.75}, {x + 14.75, y + 1.75}};
     params.kidnappings = {{.after_m = 3.0, .to = {x + 1.75, y + 9.25}, .heading_deg = 90.0}};
     params.boxes = 2;
-    DriveSimulator drive(params, SourceSetup{.seed = 4});
-    std::vector<carmen::CarmenScan> scans;
-    while (auto scan = drive.next()) scans.push_back(*std::move(scan));
-    return scans;
+    Simulation drive(params, SourceSetup{.seed = 4});
+    std::vector<Sample> samples;
+    while (auto sample = drive.next()) samples.push_back(*std::move(sample));
+    return samples;
   };
-  const std::vector<carmen::CarmenScan> near = read_all(test::Plan(floor_plan, "[0, 0, 0]"), 0.0, 0.0);
-  const std::vector<carmen::CarmenScan> far =
+  const std::vector<Sample> near = read_all(test::Plan(floor_plan, "[0, 0, 0]"), 0.0, 0.0);
+  const std::vector<Sample> far =
       read_all(test::Plan(floor_plan, "[500000, 4649776, 0]"), 500'000.0, 4'649'776.0);
   ASSERT_EQ(far.size(), near.size());
   for (std::size_t i = 0; i < near.size(); ++i) {
-    ASSERT_EQ(far[i].ranges, near[i].ranges);
-    EXPECT_EQ(far[i].odom_from_robot, near[i].odom_from_robot);
+    ASSERT_EQ(far[i].observation.scan.hits, near[i].observation.scan.hits);
+    ASSERT_EQ(far[i].observation.scan.free_ends, near[i].observation.scan.free_ends);
+    EXPECT_EQ(far[i].observation.odom_from_robot, near[i].observation.odom_from_robot);
     EXPECT_NEAR(far[i].map_from_robot->x, near[i].map_from_robot->x + 500'000.0, 1e-9);
     EXPECT_NEAR(far[i].map_from_robot->y, near[i].map_from_robot->y + 4'649'776.0, 1e-9);
   }

@@ -132,8 +132,7 @@ TEST(Route, SaysWhyARobotCannotBeCarriedThere) {
       folder.write("world.yaml", std::string(triangle) + "rectangles: [{centre: [6, 3], size: [1, 4]}]\n"));
   const auto fault = [&](const Kidnapping& kidnapping) {
     params.kidnappings = {kidnapping};
-    return test::config_error(params.world.resolved.parent_path(),
-                              [&] { DriveSimulator(params, {.seed = 1}); });
+    return test::config_error(params.world.resolved.parent_path(), [&] { Simulation(params, {.seed = 1}); });
   };
   EXPECT_EQ(
       fault({.after_m = 2.0, .to = {7.5, 3}}),

@@ -1,15 +1,12 @@
-// A robot's drive through a simulated world, or through a map.
+// A robot on its way through a simulated world, or through a map: where it is, and where odometry says it is.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 
-#include "glocal/catalog.hpp"
 #include "glocal/rng.hpp"
-#include "sources/carmen/carmen_parser.hpp"
 #include "sources/simulation/drive_params.hpp"
-#include "sources/simulation/near_shapes.hpp"
 #include "sources/simulation/planned_drive.hpp"
 
 namespace glocal::simulation {
@@ -44,31 +41,6 @@ class DrivingRobot {
   Route route_;
   std::size_t step_ = 0;
   Pose2 odom_from_robot_;
-};
-
-/// A robot with a planar laser.
-class DriveSimulator {
- public:
-  /// Throws ConfigError where planned_drive() does.
-  DriveSimulator(const LaserDriveParams& params, const SourceSetup& setup);
-  /// A drive that was planned elsewhere.
-  DriveSimulator(const LaserDriveParams& params, std::uint64_t seed, PlannedDrive drive);
-
-  /// The scan of the next step, with its reference pose; none at the end of the drive. Rays that meet nothing
-  /// within the laser's range read max_range, those that are lost in unknown cells of a map 0.
-  [[nodiscard]] std::optional<carmen::CarmenScan> next();
-  void start_over() { robot_.start_over(); }
-
- private:
-  [[nodiscard]] carmen::CarmenScan measure(const DriveStep& step) const;
-
-  LaserParams laser_;
-  double max_unknown_;
-  World world_;
-  std::optional<OccupancyGrid> map_;
-  Vector3 origin_;  ///< What all places but those of scans are relative to.
-  NearShapes reality_;
-  DrivingRobot robot_;
 };
 
 }  // namespace glocal::simulation
