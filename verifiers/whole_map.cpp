@@ -122,7 +122,7 @@ Verification WholeMap::go_on(const LocalMap& local, const Pose3& map_from_local,
   Search& search = *open_;
   Verification result{.near = search.declared.near, .margin = params_.margin};
   result.points_tested = search.rivals.advance(looks_left);
-  if (search.mirrored && looks_left > 0) result.points_tested += search.mirrored->advance(looks_left);
+  if (search.mirrored) result.points_tested += search.mirrored->advance(looks_left);
   result.goes_on = !search.rivals.is_over() || (search.mirrored && !search.mirrored->is_over());
   if (result.goes_on) return result;
   const BoxSearchResult found = search.rivals.result();

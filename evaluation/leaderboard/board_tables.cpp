@@ -127,7 +127,7 @@ std::vector<Line> lines_of(const std::vector<BoardEntry>& entries, const std::ve
     }
     if (line.counts.starts > 0) lines.push_back(std::move(line));
   }
-  std::ranges::stable_sort(lines, std::ranges::greater(), [](const Line& l) { return l.counts.score(); });
+  std::ranges::stable_sort(lines, std::greater<>(), [](const Line& l) { return l.counts.score(); });
   return lines;
 }
 
@@ -220,7 +220,7 @@ Report board_overview(const std::vector<std::string>& suites, const std::vector<
         fmt::format("{} / {} of {}", counts.wrong, counts.right, counts.starts);
     method->score += counts.score();
   }
-  std::ranges::stable_sort(methods, std::ranges::greater(), &MethodRow::score);
+  std::ranges::stable_sort(methods, std::greater<>(), &MethodRow::score);
   for (MethodRow& method : methods) {
     std::vector<std::string> row = {method.name};
     std::move(method.cells.begin(), method.cells.end(), std::back_inserter(row));

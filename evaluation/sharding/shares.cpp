@@ -13,7 +13,7 @@ namespace {
 std::vector<std::size_t> longest_first(const std::vector<std::size_t>& steps) {
   std::vector<std::size_t> order(steps.size());
   std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_sort(order, std::ranges::greater(), [&](std::size_t i) { return steps[i]; });
+  std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) { return steps[i]; });
   return order;
 }
 

@@ -185,7 +185,7 @@ std::vector<ParameterEffect> effects_of(const std::vector<TriedSetting>& setting
     if (column.is_numeric) effect.spearman = correlation(column, settings);
     effects.push_back(std::move(effect));
   }
-  std::ranges::stable_sort(effects, std::ranges::greater(), &ParameterEffect::range);
+  std::ranges::stable_sort(effects, std::greater<>(), &ParameterEffect::range);
   return effects;
 }
 

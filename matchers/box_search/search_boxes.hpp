@@ -87,8 +87,8 @@ class BoxSearch {
   BoxSearch& operator=(BoxSearch&&) noexcept;
   ~BoxSearch();
 
-  /// Goes on for the time of so many looks, or to the end: at least one part, and it may take some more than
-  /// are left. What it took is no longer left: to lay points into cells takes time, too. Returns at how many
+  /// Goes on part by part until no looks are left, or to the end. What a part takes is no longer left: to lay
+  /// points into cells takes time, too. The last part may take more than there was. Returns at how many
   /// points it looked.
   std::size_t advance(std::size_t& looks_left);
   [[nodiscard]] bool is_over() const;

@@ -7,8 +7,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "sources/simulation/clear_cells.hpp"
-
 namespace glocal::disturbed {
 namespace {
 
@@ -191,9 +189,12 @@ void take_cells_of_points(MapData& map) {
   OccupancyGrid& grid = map.grid;
   if (grid.cells.empty()) return;
   std::replace(grid.cells.begin(), grid.cells.end(), Cell::occupied, Cell::free);
+  const Pose2 grid_from_map = inverse(grid.map_from_grid);
   for (std::size_t i = 0; i < map.points.size(); ++i) {
-    const auto cell = simulation::cell_under({map.points.x[i], map.points.y[i]}, grid);
-    if (cell) grid.cells[*cell] = Cell::occupied;
+    const Pose2 at = grid_from_map * Pose2{map.points.x[i], map.points.y[i], 0.0};
+    const auto column = static_cast<int>(std::floor(at.x / grid.resolution));
+    const auto row = static_cast<int>(std::floor(at.y / grid.resolution));
+    if (grid.holds(column, row)) grid.cell(column, row) = Cell::occupied;
   }
 }
 
