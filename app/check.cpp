@@ -2,8 +2,9 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <map>
 #include <memory>
-#include <set>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "app/standard_streams.hpp"
 #include "evaluation/results/fault_collector.hpp"
 #include "evaluation/running/experiment_loader.hpp"
+#include "evaluation/running/search_pace.hpp"
 
 namespace glocal::app {
 namespace {
@@ -19,42 +21,55 @@ namespace {
 struct CheckOptions {
   std::vector<std::string> files;
   ExperimentOptions experiment;
+  std::optional<double> budget_ms;  ///< For the searches of a step.
 };
 
-/// The variants with the first setting and seed of each case.
-std::vector<Variant*> first_of_cases(std::vector<Variant>& variants) {
-  std::vector<Variant*> firsts;
-  std::set<std::string> seen;
-  for (Variant& variant : variants) {
-    if (seen.insert(variant.case_name).second) firsts.push_back(&variant);
-  }
+/// Of each case the place of its first variant.
+std::map<std::string, std::size_t> first_of_cases(const std::vector<Variant>& variants) {
+  std::map<std::string, std::size_t> firsts;
+  for (std::size_t i = 0; i < variants.size(); ++i) firsts.try_emplace(variants[i].case_name, i);
   return firsts;
 }
 
-void check(const std::string& file, const ExperimentOptions& options, Context& context) {
-  std::vector<Variant> variants = options.read_variants(file, context);
+std::string told_budget(double ms, const Experiment& experiment, const Catalog& catalog,
+                        LoadedExperiment& loaded) {
+  const std::optional<int> looks = looks_within(ms, experiment, catalog, loaded);
+  if (!looks) return "; no search of its first trials is long enough to be timed";
+  int unit = 1;  // A measurement is worth two digits.
+  while (*looks / unit >= 100) unit *= 10;
+  return fmt::format("; {} ms of searches a step are localizer.looks_per_step={} here", ms,
+                     *looks / unit * unit);
+}
+
+void check(const std::string& file, const CheckOptions& options, Context& context) {
+  std::vector<Variant> variants = options.experiment.read_variants(file, context);
+  const std::map<std::string, std::size_t> firsts = first_of_cases(variants);
+  const std::size_t shared = variants.size() / firsts.size();
+  std::map<std::size_t, std::string> answers;  // One setting and one seed of each case speak for it.
   ExperimentLoader loader(context.catalog, warn);
-  static_cast<void>(count_trials(variants, loader));
-  const std::vector<Variant*> firsts = first_of_cases(variants);
-  for (Variant* first : firsts) {
+  const auto tell = [&](std::size_t i, LoadedExperiment& loaded, const Localizer& localizer) {
+    const Variant& variant = variants[i];
+    std::string& said = answers[firsts.at(variant.case_name)];
+    if (!said.empty()) return;
     std::string what = file;
-    if (!first->case_name.empty()) what += (file.empty() ? "" : ", ") + ("case " + first->case_name);
-    LoadedExperiment& loaded = loader.load(first->experiment);
-    const Localizer localizer = make_localizer(first->experiment, context.catalog, loaded);
-    if (const auto why = why_never_declared(first->experiment, loaded, localizer))
+    if (!variant.case_name.empty()) what += (file.empty() ? "" : ", ") + ("case " + variant.case_name);
+    if (const auto why = why_never_declared(variant.experiment, loaded, localizer))
       spdlog::warn("{}: {}", what, *why);
-    const std::size_t shared = variants.size() / firsts.size();
-    answer("{}: ok, {} map points, {} observations, {} trials{}\n", what, loaded.map->points().size(),
-           loaded.drive.samples.size(), loaded.starts.size(),
-           shared > 1 ? fmt::format(" of each of {} variants", shared) : "");
-  }
+    said = fmt::format("{}: ok, {} map points, {} observations, {} trials{}{}", what,
+                       loaded.map->points().size(), loaded.drive.samples.size(), loaded.starts.size(),
+                       shared > 1 ? fmt::format(" of each of {} variants", shared) : "",
+                       options.budget_ms
+                           ? told_budget(*options.budget_ms, variant.experiment, context.catalog, loaded)
+                           : "");
+  };
+  static_cast<void>(count_trials(variants, loader, tell));
+  for (const auto& [place, text] : answers) answer("{}\n", text);
 }
 
 void check_all(const CheckOptions& options, Context& context) {
-  if (options.files.empty()) return check("", options.experiment, context);
+  if (options.files.empty()) return check("", options, context);
   FaultCollector faults;
-  for (const std::string& file : options.files)
-    faults.collect([&] { check(file, options.experiment, context); });
+  for (const std::string& file : options.files) faults.collect([&] { check(file, options, context); });
   faults.report();
 }
 
@@ -68,6 +83,10 @@ void add_check(CLI::App& app, Context& context) {
                       "Experiment files (YAML); none needed with --method and --case");
   options->experiment.add_products_to(*command);
   options->experiment.add_overrides_to(*command);
+  command
+      ->add_option("--budget-ms", options->budget_ms,
+                   "Tell how many looks the searches of a step take in so many ms on this machine")
+      ->check(CLI::Range(0.001, 1e6));
   command->callback([options, &context] { check_all(*options, context); });
 }
 

@@ -257,7 +257,8 @@ void for_each_loaded(std::vector<Variant>& variants, ExperimentLoader& loader,
   for_each_loaded(variants, loading_order(variants, loader.catalog()), loader, work);
 }
 
-std::vector<std::size_t> count_trials(std::vector<Variant>& variants, ExperimentLoader& loader) {
+std::vector<std::size_t> count_trials(std::vector<Variant>& variants, ExperimentLoader& loader,
+                                      const Prepared& prepared) {
   const Catalog& catalog = loader.catalog();
   std::vector<std::size_t> trials(variants.size());
   std::vector<std::size_t> order = loading_order(variants, catalog);
@@ -266,11 +267,16 @@ std::vector<std::size_t> count_trials(std::vector<Variant>& variants, Experiment
     const Experiment& experiment = variants[i].experiment;
     const auto known = known_trials(variants[i]);
     if (known) trials[i] = *known;
-    return known && !tried.insert(map_yaml(experiment, catalog) + localizer_yaml(experiment, catalog)).second;
+    const std::string of_case = prepared ? variants[i].case_name : "";
+    return known &&
+           !tried.insert(map_yaml(experiment, catalog) + localizer_yaml(experiment, catalog) + of_case)
+                .second;
   });
   for_each_loaded(variants, order, loader, [&](std::size_t i, LoadedExperiment& loaded) {
     trials[i] = loaded.starts.size();
-    if (variants.size() > 1) static_cast<void>(make_localizer(variants[i].experiment, catalog, loaded));
+    if (variants.size() == 1 && !prepared) return;
+    const Localizer localizer = make_localizer(variants[i].experiment, catalog, loaded);
+    if (prepared) prepared(i, loaded, localizer);
   });
   return trials;
 }

@@ -89,10 +89,15 @@ class ExperimentLoader {
 void for_each_loaded(std::vector<Variant>& variants, ExperimentLoader& loader,
                      const std::function<void(std::size_t variant, LoadedExperiment&)>& work);
 
-/// Prepares every variant and, if there are several, makes its localizer: whatever one of them cannot work
-/// with shows before the first is run. Of a suite that is pinned, one variant does for all with its map and
-/// its localizer. Tells how many trials each has. Throws ConfigError with the faults of all.
-[[nodiscard]] std::vector<std::size_t> count_trials(std::vector<Variant>& variants, ExperimentLoader& loader);
+/// Hears of a variant that has been prepared.
+using Prepared = std::function<void(std::size_t variant, LoadedExperiment&, const Localizer&)>;
+
+/// Prepares every variant and, if there are several or somebody wants it, makes its localizer: whatever one
+/// of them cannot work with shows before the first is run. Of a suite that is pinned, one variant does for
+/// all with its map and its localizer, and, if somebody wants to know it, its case. Tells how many trials
+/// each has. Throws ConfigError with the faults of all.
+[[nodiscard]] std::vector<std::size_t> count_trials(std::vector<Variant>& variants, ExperimentLoader& loader,
+                                                    const Prepared& prepared = {});
 
 /// What to do while trials run side by side: calls come from several threads at once, those about one trial
 /// from one.

@@ -6,6 +6,7 @@
 namespace glocal::test::products_command_test {
 namespace {
 
+using testing::ContainsRegex;
 using testing::HasSubstr;
 
 class ProductsCommand : public Room {
@@ -112,6 +113,16 @@ TEST_F(ProductsCommand, TheSameWarningComesOnce) {
   const std::size_t first = answer.err.find(warning);
   ASSERT_NE(first, std::string::npos) << answer.err;
   EXPECT_EQ(answer.err.find(warning, first + 1), std::string::npos) << answer.err;
+}
+
+TEST_F(ProductsCommand, CheckTellsWhatAStepHasTimeFor) {
+  const std::string check = "check --method indexed --case paper_lab --budget-ms ";
+  EXPECT_THAT(
+      good(run(check + "30")).out,
+      ContainsRegex("1 trials; 30 ms of searches a step are localizer.looks_per_step=[0-9]+ here\n$"));
+  EXPECT_THAT(good(run("check --method paper" + case_option() + "--budget-ms 30")).out,
+              HasSubstr("trials; no search of its first trials is long enough to be timed\n"));
+  EXPECT_THAT(refusal(run(check + "0")), HasSubstr("--budget-ms: "));
 }
 
 TEST_F(ProductsCommand, ListTellsWhatIsBuiltIn) {
