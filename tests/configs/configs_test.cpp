@@ -109,11 +109,13 @@ INSTANTIATE_TEST_SUITE_P(Configs, Cases, testing::ValuesIn(names_in("cases")), n
 
 class Suites : public ConfigsTest, public testing::WithParamInterface<std::string> {};
 
-/// Files of data sets are looked at when they are loaded: the tests of the leaderboard do.
+/// What is in files of data sets shows when they are loaded: the tests of the leaderboard do that.
 TEST_P(Suites, HaveTheCasesThatTheyPin) {
   EXPECT_THAT(content(path_of("suites", GetParam())), testing::StartsWith("# "));
   const Answer answer =
       run("run --method paper --suite " + GetParam() + " --share 1e-12 --out " + file("nothing"));
+  if (answer.err.find("GLOCAL_DATASETS, which is not set") != std::string::npos)
+    GTEST_SKIP() << "GLOCAL_DATASETS is not set";
   EXPECT_THAT(answer.err, testing::HasSubstr("has no start"));
   EXPECT_THAT(answer.err, testing::EndsWith("1 error\n"));
 }
