@@ -80,12 +80,9 @@ run_page embedding
 diff <(jq -r '"\(.step) \(.verdict)"' "$work/whole/steps.jsonl") <(awk '{ sub(":", "", $2); print $1, $2 }' "$work/embedding/verdicts") ||
   fail "the embedding program's verdicts"
 
-# try_examples HOW EMBED RUN_EXPERIMENT: both programs of examples/, built in some way, run.
-try_examples() {
-  local how=$1 embed=$2 run_experiment=$3
-  awk '$1 == "ROBOTLASER1" { n = $9; printf "%s %s %s", $(n + 14), $(n + 15), $(n + 16); for (i = 10; i < n + 10; ++i) printf " %s", $i; print "" }' \
-    "$work/embedding/drive/drive.log" | "$embed" "$work/embedding/drive/experiment.yaml" >"$work/verdicts_$how"
-  cmp "$work/embedding/verdicts" "$work/verdicts_$how" || fail "examples/embed by $how"
+# try_run_experiment HOW PROGRAM: examples/run_experiment, built in some way, runs.
+try_run_experiment() {
+  local how=$1 run_experiment=$2
   "$run_experiment" "$work/embedding/drive/experiment.yaml" "$work/run_by_$how" >"$work/said_by_$how" 2>/dev/null
   jq -r '.trials | "experiment: \(.right) right, \(.wrong) wrong, \(.undecided) undecided"' "$work/run_by_$how/summary.json" |
     cmp - "$work/said_by_$how" || fail "examples/run_experiment by $how"
@@ -93,7 +90,7 @@ try_examples() {
 }
 cmake -S "$root/examples/run_experiment" -B "$work/run_experiment" -DCMAKE_PREFIX_PATH="$prefix" >/dev/null
 cmake --build "$work/run_experiment" >/dev/null
-try_examples cmake "$work/embedding/build/embed" "$work/run_experiment/run_experiment"
+try_run_experiment cmake "$work/run_experiment/run_experiment"
 # The same numbers as the program's own run.
 "$prefix/bin/glocal" run "$work/embedding/drive/experiment.yaml" --quiet --out "$work/run_by_program"
 diff "$work/run_by_program/trials.jsonl" "$work/run_by_cmake/trials.jsonl" || fail "examples/run_experiment against glocal run"
@@ -109,5 +106,8 @@ if command -v pkg-config >/dev/null; then
     c++ $CXXFLAGS "$root/examples/$example/$example.cpp" $(pkg-config --cflags --libs glocal) \
       "-Wl,-rpath,$(pkg-config --variable=libdir glocal)" -o "$work/${example}_by_hand"
   done
-  try_examples pkg_config "$work/embed_by_hand" "$work/run_experiment_by_hand"
+  awk '$1 == "ROBOTLASER1" { n = $9; printf "%s %s %s", $(n + 14), $(n + 15), $(n + 16); for (i = 10; i < n + 10; ++i) printf " %s", $i; print "" }' \
+    "$work/embedding/drive/drive.log" | "$work/embed_by_hand" "$work/embedding/drive/experiment.yaml" >"$work/verdicts_by_hand"
+  cmp "$work/embedding/verdicts" "$work/verdicts_by_hand" || fail "examples/embed by pkg-config"
+  try_run_experiment pkg_config "$work/run_experiment_by_hand"
 fi
