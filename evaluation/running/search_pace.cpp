@@ -43,7 +43,8 @@ std::optional<int> looks_within(double ms, Experiment experiment, const Catalog&
   experiment.localizer.looks_per_step = static_cast<int>(looks_of_piece);
   Localizer localizer = make_localizer(experiment, catalog, loaded);
   std::vector<double> times;
-  for (std::size_t trial = 0; trial < std::min(most_trials, loaded.starts.size()); ++trial) {
+  const std::size_t trials = std::min(most_trials, loaded.starts.size());
+  for (std::size_t trial = 0; trial < trials && times.size() < pieces_wanted; ++trial) {
     localizer.reset(start_number(experiment.trials, trial));
     time_pieces(localizer, experiment.trials, loaded.drive, loaded.starts[trial], times);
   }
