@@ -65,19 +65,19 @@ class VariantMerge {
 };
 
 std::optional<Json> VariantMerge::kept() const {
-  if (!is_results_folder(folder_) || is_complete(folder_) != true) return std::nullopt;
+  if (!is_results_folder(folder_)) return std::nullopt;
   const Json there = Json::parse(content_of(folder_ / "provenance.json"), nullptr, false);
   const auto same = [&](const char* key) {
     return there.is_object() && there.contains(key) && there.at(key) == first_.at("provenance").at(key);
   };
-  if (content_of(folder_ / "effective.yaml") == first_.at("effective") && same("program_sha256") &&
-      same("inputs_sha256"))
-    return read_results(folder_).summary;
-  if (!options_.force)
+  const bool is_same_run = content_of(folder_ / "effective.yaml") == first_.at("effective") &&
+                           same("program_sha256") && same("inputs_sha256");
+  if (!is_same_run && !options_.force)
     throw ConfigError(folder_,
                       "output: the folder has results of another run; remove them, or replace them with "
                       "--force");
-  return std::nullopt;
+  if (!is_same_run || is_complete(folder_) != true) return std::nullopt;
+  return read_results(folder_).summary;
 }
 
 /// What journals say besides trials. Machines that have taken part are all named; memory is that of the

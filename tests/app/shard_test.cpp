@@ -248,6 +248,12 @@ TEST_F(Shards, ResultsOfAnotherRunAreNotReplaced) {
   EXPECT_THAT(refusal(merge()),
               HasSubstr("iterations-10000: error: output: the folder has results of another run"));
   EXPECT_EQ(json("shared/iterations-10000/summary.json")["seed"], 2);
+  // Nor are those of a run that was interrupted: it can be gone on with.
+  Json summary = json("shared/iterations-10000/summary.json");
+  summary["complete"] = false;
+  std::ofstream(file("shared/iterations-10000/summary.json")) << summary;
+  EXPECT_THAT(refusal(merge()),
+              HasSubstr("iterations-10000: error: output: the folder has results of another run"));
   good(merge("--quiet --force"));
   EXPECT_EQ(json("shared/iterations-10000/summary.json")["seed"], 1);
   write_experiment("trials: {every_scan: 2, max_steps: 6}\n");
