@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <system_error>
 
 #include "evaluation/results/file_io.hpp"
@@ -29,9 +30,11 @@ void AtomicFiles::add(const fs::path& file, std::string_view content) {
   std::vector<fs::path> changed;
   check_written(make_folders(target.parent_path(), changed), file);
   for (const fs::path& folder : changed) check_written(sync_to_disk(folder), file);
+  // Processes of two machines may have the same number, and write at the same time.
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
   const fs::path temporary =
-      target.parent_path() / fmt::format(".{}.{}.unfinished", target.filename().string(), ::getpid());
-  fs::remove(temporary, error);
+      target.parent_path() / fmt::format(".{}.{}-{:x}.unfinished", target.filename().string(), ::getpid(),
+                                         std::chrono::nanoseconds(now).count());
   pending_.push_back({target, temporary});
   append(content);
 }
