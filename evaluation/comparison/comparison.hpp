@@ -123,11 +123,12 @@ struct MeasureDifference {
   double smallest = 0.0;  ///< Difference that matters, as the values are.
   double places_needed = 0.0;
 
-  /// It is as large as what matters, and ranks and mean agree on who has less.
-  [[nodiscard]] bool matters() const {
-    const bool agree = (ranks.positive_sum < ranks.expected_sum) == (mean.value < 0.0);
-    return agree && std::abs(mean.value) >= smallest;
+  /// Whether ranks and mean agree on who has less.
+  [[nodiscard]] bool ranks_agree() const {
+    return (ranks.positive_sum < ranks.expected_sum) == (mean.value < 0.0);
   }
+  /// It is as large as what matters, and ranks and mean agree.
+  [[nodiscard]] bool matters() const { return ranks_agree() && std::abs(mean.value) >= smallest; }
 };
 
 /// A variant and the baseline.

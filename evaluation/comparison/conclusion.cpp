@@ -30,14 +30,18 @@ std::string count_text(double n, const char* what) {
 }
 
 /// What can be told of right, or of wrong.
-enum class Told : std::uint8_t { better, worse, alike, nothing };
+enum class Told : std::uint8_t { better, worse, perhaps_small, alike, nothing };
+
+/// Whether all that the difference may be is too small to matter.
+bool is_small(const Interval& interval, double smallest) {
+  return -smallest < interval.low && interval.high < smallest;
+}
 
 Told told_of(const OutcomeDifference& outcome) {
-  const Interval& interval = outcome.points.interval;
   if (outcome.test.is_significant() && outcome.matters())
     return (outcome.points.value > 0.0) == outcome.more_is_better ? Told::better : Told::worse;
-  const bool is_small = -outcome.smallest < interval.low && interval.high < outcome.smallest;
-  return is_small || (outcome.test.is_significant() && !outcome.matters()) ? Told::alike : Told::nothing;
+  if (is_small(outcome.points.interval, outcome.smallest)) return Told::alike;
+  return outcome.test.is_significant() ? Told::perhaps_small : Told::nothing;
 }
 
 std::string points_text(const OutcomeDifference& outcome) {
@@ -83,6 +87,10 @@ std::string outcomes_text(const PairComparison& pair, const std::string& baselin
       case Told::worse:
         worse.push_back(significant_phrase(outcome));
         break;
+      case Told::perhaps_small:
+        rest.push_back(fmt::format("{} is {}: perhaps by less than {}.", pair.variant,
+                                   significant_phrase(outcome), count_text(outcome.smallest, "point")));
+        break;
       case Told::alike:
         alike.push_back(fmt::format("{} ({})", outcome.name, points_text(outcome)));
         break;
@@ -123,15 +131,22 @@ std::string effect(const MeasureDifference& difference) {
 
 /// Of steps, errors and times.
 std::string measures_text(const PairComparison& pair) {
-  Phrases less, more, too_small;
+  Phrases less, more, too_small, perhaps_small, disagree;
   for (const MeasureDifference& difference : pair.measures) {
     if (!difference.test.is_significant()) continue;
-    Phrases& side = !difference.matters() ? too_small : difference.mean.value < 0.0 ? less : more;
+    Phrases& side = is_small(difference.mean.interval, difference.smallest) ? too_small
+                    : !difference.ranks_agree()                             ? disagree
+                    : !difference.matters()                                 ? perhaps_small
+                    : difference.mean.value < 0.0                           ? less
+                                                                            : more;
     side.push_back(effect(difference));
   }
   std::string text;
   if (!less.empty()) text += " Lower: " + enumerated(less) + ".";
   if (!more.empty()) text += " Higher: " + enumerated(more) + ".";
+  if (!disagree.empty())
+    text += " At most places the other way than in the mean: " + enumerated(disagree) + ".";
+  if (!perhaps_small.empty()) text += " Perhaps too small to matter: " + enumerated(perhaps_small) + ".";
   if (!too_small.empty()) text += " No difference that matters: " + enumerated(too_small) + ".";
   return text;
 }

@@ -240,10 +240,31 @@ TEST(Comparison, RanksAndMeanMustAgree) {
   std::vector<TrialResult> second = first;
   for (std::size_t i = 0; i < 20; ++i) second[i].steps = 71.0;
   second[20].steps = 10.0;
-  const MeasureDifference steps = compare({run_of("a", first), run_of("b", second)}, 0).pairs[0].measures[0];
+  const PairComparison pair = compare({run_of("a", first), run_of("b", second)}, 0).pairs.front();
+  const MeasureDifference& steps = pair.measures[0];
   EXPECT_TRUE(steps.test.is_significant());
   EXPECT_LT(steps.mean.value, -0.5);
   EXPECT_FALSE(steps.matters());
+  EXPECT_THAT(pair.conclusion,
+              AllOf(HasSubstr(" At most places the other way than in the mean: steps to localize (-1.33"),
+                    Not(HasSubstr("No difference that matters: steps"))));
+}
+
+TEST(Comparison, IsSureOfALittleDifferenceOnlyWhereAllOfItsIntervalIsLittle) {
+  // 9 of 1000 starts wrong with one method only: 0.9 points, of which 1 matters, and 0.3 to 1.5 may be.
+  std::vector<TrialResult> first(1000, right_after(10.0));
+  std::vector<TrialResult> second = first;
+  for (std::size_t i = 0; i < 9; ++i) second[i].outcome = Outcome::wrong;
+  EXPECT_THAT(
+      compare({run_of("a", first), run_of("b", second)}, 0).pairs.front().conclusion,
+      HasSubstr(
+          "b is wrong more often (+0.9 points, +0.3 to +1.5, p = 0.008): perhaps by less than 1 point."));
+  // 1.2 steps more at a third of 60 starts: 0.4 in the mean, of which 0.5 matter.
+  first.resize(60);
+  second = first;
+  for (std::size_t i = 0; i < 20; ++i) second[i].steps += 1.2;
+  EXPECT_THAT(compare({run_of("a", first), run_of("b", second)}, 0).pairs.front().conclusion,
+              HasSubstr(" Perhaps too small to matter: steps to localize (+0.4 in the mean of 60 starts"));
 }
 
 TEST(Comparison, TakesRoundingForNoDifference) {
