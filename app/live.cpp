@@ -7,12 +7,14 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/commands.hpp"
 #include "app/experiment_options.hpp"
@@ -24,8 +26,10 @@
 #include "app/standard_streams.hpp"
 #include "app/step_text.hpp"
 #include "evaluation/results/atomic_file.hpp"
+#include "evaluation/results/file_io.hpp"
 #include "evaluation/results/writers.hpp"
 #include "evaluation/running/experiment_loader.hpp"
+#include "glocal/error.hpp"
 #include "glocal/localizer.hpp"
 #include "sources/bags/scan_placer.hpp"
 #include "sources/live/answers.hpp"
@@ -43,6 +47,8 @@ struct LiveOptions {
   bool publishes_tf = false, force = false, has_viewers = false;
   std::string address = "127.0.0.1";
   int port = 8765;
+
+  [[nodiscard]] std::string steps_file() const { return out + ".steps.jsonl"; }
 };
 
 /// Localizes a robot as its observations come, for ever, and tells what it finds.
@@ -62,13 +68,15 @@ class LiveLocalizer {
             },
             [this] { return go_on(); }),
         answers_(*link_, *loaded_.map, params().topics.name_space, frames(options)),
-        steps_file_(options.out + ".steps.jsonl"),
+        steps_file_(options.steps_file()),
         steps_(steps_file_, std::ios::binary),
         state_file_(options.state) {
     if (!steps_) throw RunError(fmt::format("{}: cannot write: {}", steps_file_, std::strerror(errno)));
     link_->subscribe(begin(), Delivery::reliable);
     localizer_.reset(trial_);
     if (state_file_.empty()) return;
+    std::vector<std::filesystem::path> made;
+    check_written(make_folders(std::filesystem::absolute(state_file_).parent_path(), made), state_file_);
     fingerprint_ = fingerprint(*loaded_.map);
     recall();
   }
@@ -111,7 +119,7 @@ class LiveLocalizer {
                                                      FoxgloveServer* viewers) const {
     std::shared_ptr<MessageLink> link = catalog.message_links.make(params().link, setup(experiment_));
     if (!options.record.empty()) {
-      const auto recorder = std::make_shared<live::LiveRecorder>(options.record);
+      const auto recorder = std::make_shared<live::LiveRecorder>(options.record, warn);
       link = std::make_shared<live::TappedLink>(
           std::move(link), [recorder](const LiveTopic& topic, std::int64_t stamp_ns, std::string_view bytes) {
             recorder->write(topic, stamp_ns, bytes);
@@ -184,11 +192,16 @@ class LiveLocalizer {
     if (!state_) return;
     state_->stamp = result.stamp;
     if (!is_newly_declared && std::abs(result.stamp - kept_at_) < between_s) return;
-    write_state(state_file_, *state_);
     kept_at_ = result.stamp;
+    try {
+      write_state(state_file_, *state_);
+    } catch (const RunError& error) {
+      spdlog::warn("{}; the pose is not kept any more", error.what());
+      state_file_.clear();
+    }
   }
 
-  /// A robot needs its place though the disk is full.
+  /// A robot needs its place though the disk is full: so here, and where its pose is kept.
   void write(const std::string& line) {
     if (!steps_) return;
     if (!(steps_ << line << std::flush))
@@ -266,6 +279,9 @@ void live(const LiveOptions& options, Context& context) {
   std::optional<FoxgloveServer> viewers;
   if (options.has_viewers) viewers.emplace(options.address, options.port);
   const std::string file = options.out + ".yaml";
+  const std::string steps = options.steps_file();
+  if (!options.force && std::filesystem::is_regular_file(steps))
+    throw ConfigError(steps, "the file exists; choose another name, or replace it with --force");
   AtomicFiles files(options.force);
   files.add(file, plan.experiment);
   files.commit();

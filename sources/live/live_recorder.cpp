@@ -1,5 +1,10 @@
 #include "sources/live/live_recorder.hpp"
 
+#include <fmt/format.h>
+
+#include <exception>
+#include <utility>
+
 #include "glocal/error.hpp"
 #include "sources/bags/message_definitions.hpp"
 
@@ -16,23 +21,43 @@ std::ofstream opened(const std::filesystem::path& file) {
 
 }  // namespace
 
-LiveRecorder::LiveRecorder(const std::filesystem::path& file)
-    : name_(file.string()), file_(opened(file)), writer_([this](std::string_view bytes) {
+LiveRecorder::LiveRecorder(const std::filesystem::path& file, Warn warn)
+    : name_(file.string()),
+      warn_(std::move(warn)),
+      file_(opened(file)),
+      writer_([this](std::string_view bytes) {
         file_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
       }) {}
 
 LiveRecorder::~LiveRecorder() {
-  writer_.finish();
+  attempt([this] {
+    writer_.finish();
+    file_.close();
+  });
 }
 
 void LiveRecorder::write(const LiveTopic& topic, std::int64_t stamp_ns, std::string_view bytes) {
-  auto channel = channels_.find(topic.name);
-  if (channel == channels_.end()) {
-    const std::uint16_t id = writer_.add_channel(topic.name, topic.type, bags::definition_of(topic.type));
-    channel = channels_.emplace(topic.name, id).first;
+  attempt([&] {
+    auto channel = channels_.find(topic.name);
+    if (channel == channels_.end()) {
+      const std::uint16_t id = writer_.add_channel(topic.name, topic.type, bags::definition_of(topic.type));
+      channel = channels_.emplace(topic.name, id).first;
+    }
+    writer_.write(channel->second, stamp_ns, bytes);
+  });
+}
+
+void LiveRecorder::attempt(const std::function<void()>& work) {
+  if (!is_whole_) return;
+  try {
+    work();
+    is_whole_ = !file_.fail();
+  } catch (const std::exception&) {  // Of the compressor, or where memory is short.
+    is_whole_ = false;
   }
-  writer_.write(channel->second, stamp_ns, bytes);
-  if (!file_) throw ConfigError(name_, "cannot be written any further; is the disk full?");
+  if (!is_whole_)
+    warn_(fmt::format("{}: cannot be written any further; the recording is not whole. Is the disk full?",
+                      name_));
 }
 
 }  // namespace glocal::live

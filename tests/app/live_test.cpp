@@ -102,6 +102,25 @@ TEST_F(Live, GoesOnThoughStepsCannotBeWrittenButDoesNotBeginSo) {
   std::filesystem::create_directory(file("other.steps.jsonl"));
   EXPECT_THAT(refusal(live("drive.mcap", "--out " + file("other")), 1),
               HasSubstr("other.steps.jsonl: cannot write: Is a directory"));
+  // The steps of another run are kept, though its experiment is gone.
+  folder_.write("earlier.steps.jsonl", "{}\n");
+  EXPECT_THAT(refusal(run("live " + file("room/map.yaml") + " --recording " + file("drive.mcap") + " --out " +
+                          file("earlier"))),
+              HasSubstr("earlier.steps.jsonl: error: the file exists"));
+  EXPECT_FALSE(std::filesystem::exists(file("earlier.yaml")));
+}
+
+TEST_F(Live, GoesOnThoughItsPoseCannotBeKeptButDoesNotBeginSo) {
+  // A name that is written under a longer one first.
+  const std::string name(250, 's');
+  const Answer long_name = good(live("drive.mcap", "--out " + file("live") + " --state " + file(name)));
+  EXPECT_THAT(long_name.err,
+              HasSubstr(name + ": cannot write: File name too long; the pose is not kept any more"));
+  EXPECT_THAT(long_name.out, HasSubstr("1 declarations"));
+  folder_.write("plain", "");
+  EXPECT_THAT(
+      refusal(live("drive.mcap", "--out " + file("live") + " --state " + file("plain/state.json")), 1),
+      HasSubstr("state.json: cannot write: Not a directory"));
 }
 
 TEST_F(Live, ItsOwnRecordingGivesTheSameAnswers) {

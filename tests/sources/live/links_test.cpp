@@ -2,8 +2,11 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <chrono>
+#include <csignal>
+#include <random>
 
 #include "files.hpp"
 #include "sources/bags/message_writer.hpp"
@@ -21,6 +24,9 @@ using glocal::live::TappedLink;
 using std::chrono::milliseconds;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
+
+const Warn ignore = [](const std::string&) {};
 
 constexpr std::int64_t ms = 1'000'000;
 
@@ -72,7 +78,7 @@ TEST_F(Links, WhatComesAndWhatIsToldIsWrittenDown) {
     const auto robot = std::make_shared<FakeLink>();
     robot->put(tf, 10 * ms, bags::Writer("cdr").number<std::uint32_t>(0).bytes());
     robot->put(scan, 5 * ms, "a scan that was received before");
-    LiveRecorder recorder(file);
+    LiveRecorder recorder(file, ignore);
     TappedLink link(robot, [&](const LiveTopic& topic, std::int64_t stamp_ns, std::string_view bytes) {
       recorder.write(topic, stamp_ns, bytes);
     });
@@ -86,10 +92,34 @@ TEST_F(Links, WhatComesAndWhatIsToldIsWrittenDown) {
   for (const LiveTopic& topic : again.topics()) again.subscribe(topic, Delivery::reliable);
   EXPECT_THAT(all_of(again), ElementsAre("/tf", "/scan", "/initialpose"))
       << "in the order in which they were taken";
-  EXPECT_THAT(config_error(folder_.path(), [&] { LiveRecorder again_there(file); }),
+  EXPECT_THAT(config_error(folder_.path(), [&] { LiveRecorder again_there(file, ignore); }),
               HasSubstr("live.mcap: error: is there already"));
-  EXPECT_THAT(config_error(folder_.path(), [&] { LiveRecorder nowhere(folder_.path() / "no" / "f.mcap"); }),
-              HasSubstr("cannot be written"));
+  EXPECT_THAT(
+      config_error(folder_.path(), [&] { LiveRecorder nowhere(folder_.path() / "no" / "f.mcap", ignore); }),
+      HasSubstr("cannot be written"));
+}
+
+TEST_F(Links, ARecordingThatCannotBeWrittenAnyFurtherIsToldOnce) {
+  // As on a full disk: a chunk is too long a file. SIGXFSZ would end the process.
+  const auto handled = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit little{.rlim_cur = 1000, .rlim_max = before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &little);
+  std::vector<std::string> warnings;
+  {
+    LiveRecorder recorder(folder_.path() / "live.mcap",
+                          [&](const std::string& text) { warnings.push_back(text); });
+    std::mt19937 random(1);
+    std::string noise(20'000, ' ');
+    for (char& c : noise) c = static_cast<char>(random());
+    for (int i = 0; i < 3; ++i) recorder.write(scan, i * ms, noise);
+    EXPECT_THAT(warnings, IsEmpty()) << "what is written by chunks is missed at the end";
+  }
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handled);
+  EXPECT_THAT(warnings,
+              ElementsAre(HasSubstr("live.mcap: cannot be written any further; the recording is not whole")));
 }
 
 TEST_F(Links, WhatIsKeptBackReachesTheTapAlone) {
