@@ -314,6 +314,7 @@ std::size_t IntervalSearch::advance(std::size_t looks) {
     const Part part = std::move(open_.back());
     open_.pop_back();
     look_at(part);
+    if (found().looks > most_looks_) open_.clear();
     taken += found().looks - before + problem_.looks_of_interval;
   }
   return taken;

@@ -120,8 +120,7 @@ class State {
     const auto some = rest.first(std::min(intervals_at_a_time(), rest.size()));
     next_ += some.size();
     const bool is_given_up = result_.looks > rule_.most_looks;
-    // Of each interval, as all of them are searched before the next count.
-    looks_each_ = is_given_up ? 0 : (rule_.most_looks - result_.looks) / 4;
+    looks_each_ = is_given_up ? 0 : rule_.most_looks - result_.looks;
     for (const auto& [interval, found] : some) {
       if (interval.bound < best_.bar()) continue;
       if (is_given_up) return end(false);
