@@ -21,7 +21,7 @@ std::size_t PoseCellHash::operator()(const PoseCell& cell) const {
 
 int parts_of_a_turn(double width_rad) {
   // Not one part more for the rounding of a width that divides the turn.
-  return static_cast<int>(std::ceil(2.0 * std::numbers::pi / width_rad - 1e-9));
+  return std::max(1, static_cast<int>(std::ceil(2.0 * std::numbers::pi / width_rad - 1e-9)));
 }
 
 int square_parts_of_a_turn(double width_rad) {

@@ -155,10 +155,17 @@ class Localizer {
   std::optional<ExpectedPose> expected_;  ///< In the map's frame; none once it was dropped.
   Pose3 expected_map_from_local_;         ///< Relative to the map's origin, after the first step.
   int expected_epoch_ = 0;                ///< Of that local map.
-  bool is_verified_ = false;              ///< What is declared since some steps.
-  bool is_verifying_ = false;             ///< A verification goes on.
-  std::optional<StepResult> open_;        ///< The last step as far as it has come, where a search goes on.
-  Observation open_observation_;          ///< Its observation.
+  /// What was declared by the last step, once it is verified. Another pose that is declared is to be verified
+  /// in turn.
+  struct VerifiedPose {
+    Pose3 map_from_local;
+    int epoch;
+    PoseTolerance near;
+  };
+  std::optional<VerifiedPose> verified_;
+  bool is_verifying_ = false;       ///< A verification goes on.
+  std::optional<StepResult> open_;  ///< The last step as far as it has come, where a search goes on.
+  Observation open_observation_;    ///< Its observation.
   Rng seed_;
   std::uint64_t trial_ = 0;
   Rng rng_;  ///< Of the trial.

@@ -412,7 +412,7 @@ void Localizer::reset(std::uint64_t trial) {
 
 void Localizer::forget_poses(std::size_t step) {
   by_contact_->unknown_place.reset();
-  is_verified_ = false;
+  verified_.reset();
   forget_verification(step);
   in_stage(stages_.matcher, step, [&] { by_contact_->matcher->reset(); });
   in_stage(stages_.threshold_policy, step, [&] { threshold_policy_->reset(); });

@@ -62,13 +62,20 @@ void settle(Verification& v, Verdict& verdict) {
 
 void Localizer::verify(const LocalMap& local, StepResult& result, std::optional<std::size_t> looks_after) {
   if (result.verdict.kind != VerdictKind::localized) {
-    is_verified_ = false;
+    verified_.reset();
     return forget_verification(result.step);
   }
-  if (is_verified_ || local.points.empty() || !by_contact_->verifier) return;
+  if (local.points.empty() || !by_contact_->verifier) return;
   const auto stage = looks_after ? &StageTimes::after : &StageTimes::verify;
   const Pose3 declared = *result.verdict.map_from_robot;
   const Pose3 map_from_local = declared * inverse(local.local_from_robot);
+  if (verified_ && verified_->epoch == local.epoch &&
+      verified_->near.are_near(verified_->map_from_local * local.local_from_robot, declared)) {
+    // A local map drifts, and its pose with it.
+    verified_->map_from_local = map_from_local;
+    return;
+  }
+  verified_.reset();
   Verifier& verifier = *by_contact_->verifier;
   Verification found;
   in_stage(stages_.verifier, result.step, [&] {
@@ -96,7 +103,7 @@ void Localizer::verify(const LocalMap& local, StepResult& result, std::optional<
   });
   found.score = score_near(declared, found.near, result);
   settle(found, result.verdict);
-  is_verified_ = !found.is_refuted;
+  if (!found.is_refuted) verified_ = {map_from_local, local.epoch, found.near};
   if (found.is_mirrored) {
     result.setup = result.setup.value_or(SetupCheck{});
     result.setup->fault = SetupFault::mirrored;
