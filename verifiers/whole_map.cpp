@@ -151,7 +151,8 @@ WholeMap::Search WholeMap::begin(const LocalMap& local, const Pose3& map_from_lo
   Points points = some_of(local.points, effort_of(pyramid_->motion()).most_points);
   const double contact = contact_of(points, map_from_local);
   const auto least_of = [](double share, const Points& of) {
-    return static_cast<std::size_t>(std::max(1.0, std::ceil(share * static_cast<double>(of.size()))));
+    // Not one point more for the rounding of a share that is one of them.
+    return static_cast<std::size_t>(std::max(1.0, std::ceil(share * static_cast<double>(of.size()) - 1e-9)));
   };
   const BoxSearchRule rule{.least = least_of(contact - params_.margin, points),
                            .most_places = most_rivals_,
@@ -166,12 +167,16 @@ WholeMap::Search WholeMap::begin(const LocalMap& local, const Pose3& map_from_lo
   search.mirrored_points = search.points;
   for (float& y : search.mirrored_points->y) y = -y;
   const Points sample = some_of(*search.mirrored_points, most_mirrored_points);
-  const Pose2 robot = seen_from_above(local.local_from_robot);
-  search.mirrored.emplace(
-      *pyramid_, sample, Pose2{robot.x, -robot.y, -robot.theta},
-      BoxSearchRule{
-          .least = least_of(contact + params_.margin, sample), .most_places = 1, .most_looks = most_looks_},
-      std::nullopt, threads_);
+  const auto mirrored = [](const Pose3& pose) {
+    const Pose2 seen = seen_from_above(pose);
+    return Pose2{seen.x, -seen.y, -seen.theta};
+  };
+  search.mirrored.emplace(*pyramid_, sample, mirrored(local.local_from_robot),
+                          BoxSearchRule{.least = least_of(contact + params_.margin, sample),
+                                        .most_places = 1,
+                                        .most_looks = most_looks_,
+                                        .gate = {gate.prior(), mirrored(gate.local_from_start())}},
+                          std::nullopt, threads_);
   return search;
 }
 
