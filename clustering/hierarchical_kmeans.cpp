@@ -101,8 +101,11 @@ std::vector<Cluster> split_all(std::vector<Item<Pose>> items, const Limits& limi
     const std::span<Item<Pose>> part = open.back();
     open.pop_back();
     Cluster cluster = moments(part);
-    if (!limits.hold(cluster)) {
-      const std::size_t first = split(part, pose_as<Pose>(cluster.map_from_robot), metric);
+    const bool is_wide = !limits.hold(cluster);
+    const std::size_t first =
+        is_wide ? split(part, pose_as<Pose>(cluster.map_from_robot), metric) : part.size();
+    // Poses that coincide but for rounding cannot be split, however narrow the limits are.
+    if (first < part.size()) {
       open.push_back(part.subspan(first));
       open.push_back(part.first(first));
       continue;

@@ -84,7 +84,8 @@ std::vector<bool> that_are_still_there(const Scan& scan, const RangeProfile& mov
   std::vector<bool> are_there;
   for (std::size_t i = 0; i < scan.hits.size(); ++i) {
     const float before = moving_along.range_towards(scan.hits[i]);
-    are_there.push_back(std::abs(range_of(scan.hits[i], scan.origin) - before) < as_before);
+    // 0 where nothing is known.
+    are_there.push_back(before > 0.0F && std::abs(range_of(scan.hits[i], scan.origin) - before) < as_before);
   }
   return are_there;
 }

@@ -46,7 +46,7 @@ std::vector<Rating> ClusterRating::rate(const std::vector<Cluster>& clusters,
 }
 
 /// eq. 7. A cluster from another clusterer may be spread more widely than the limits: the terms of spread
-/// stop at 0, so that r stays in ]0, 1].
+/// stop at 0. A rating is more than 0 (eq. 8 divides by their sum): r stays in ]0, 1].
 double ClusterRating::rate_one(const Cluster& cluster, const std::vector<Hypothesis>& hypotheses,
                                double all_support) const {
   const double degree = radians(1.0);
@@ -62,7 +62,8 @@ double ClusterRating::rate_one(const Cluster& cluster, const std::vector<Hypothe
   const double narrow = std::max(0.0, 1.0 - variance / params_.max_variance_translation);
   const double straight = std::max(0.0, 1.0 - variance_rotation / max_variance_rotation);
   const std::vector<double>& alpha = params_.weights;
-  return alpha[0] * share + alpha[1] * narrow + alpha[2] * straight + alpha[3] * score;
+  constexpr double least = 1e-6;
+  return std::max(least, alpha[0] * share + alpha[1] * narrow + alpha[2] * straight + alpha[3] * score);
 }
 
 }  // namespace glocal::raters

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "glocal/error.hpp"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "matchers/mcl/likelihood_field.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once for each instruction set
@@ -72,8 +74,14 @@ LikelihoodField::LikelihoodField(const GlobalMap& map, const LikelihoodFieldRule
   const double margin = rule.max_distance + 2.0 * rule.distance_cell;
   min_x_ = static_cast<float>(*min_x - margin);
   min_y_ = static_cast<float>(*min_y - margin);
-  columns_ = static_cast<int>(std::ceil((double{*max_x} - *min_x + 2.0 * margin) / rule.distance_cell));
-  rows_ = static_cast<int>(std::ceil((double{*max_y} - *min_y + 2.0 * margin) / rule.distance_cell));
+  const double columns = std::ceil((double{*max_x} - *min_x + 2.0 * margin) / rule.distance_cell);
+  const double rows = std::ceil((double{*max_y} - *min_y + 2.0 * margin) / rule.distance_cell);
+  constexpr double most_cells = 268435456.0;  // whose numbers take a GiB
+  if (!(columns * rows <= most_cells))
+    throw ConfigError(
+        "", "the map is too large for a likelihood field: it would need more than 1 GiB; cut the map");
+  columns_ = static_cast<int>(columns);
+  rows_ = static_cast<int>(rows);
   cells_.reserve(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
   for (int row = 0; row < rows_; ++row) {
     for (int column = 0; column < columns_; ++column) {
