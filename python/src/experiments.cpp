@@ -159,7 +159,11 @@ class BoundLocalizer {
     localizer_->reset(trial);
   }
   /// As it is now: it changes with the next step.
-  [[nodiscard]] Seen<LocalMap> local_map() const { return Seen<LocalMap>(LocalMap(localizer_->local_map())); }
+  [[nodiscard]] Seen<LocalMap> local_map() {
+    const py::gil_scoped_release others_may;
+    const std::lock_guard lock(one_at_a_time_);
+    return Seen<LocalMap>(LocalMap(localizer_->local_map()));
+  }
   [[nodiscard]] std::shared_ptr<GlobalMap> map() const { return std::const_pointer_cast<GlobalMap>(map_); }
 
  private:
