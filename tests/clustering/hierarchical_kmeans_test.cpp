@@ -52,6 +52,14 @@ TEST(HierarchicalKmeans, SplitsExactlyWhereAVarianceIsTooLarge) {
   EXPECT_EQ(cluster({at(0, 0, radians(-7.08)), at(0, 0, radians(7.08))}).size(), 2U);
 }
 
+TEST(HierarchicalKmeans, LimitsBelowRoundingComeToAnEnd) {
+  const std::vector<Hypothesis> alike(3, at(1e5 / 3.0, 7e5 / 3.0, 0.1));
+  std::vector<Hypothesis> two = alike;
+  two.push_back(at(0.0, 0.0, 0.0));
+  EXPECT_EQ(cluster(two, {.max_variance_translation = 1e-300, .max_variance_rotation_deg2 = 1e-300}).size(),
+            2U);
+}
+
 TEST(HierarchicalKmeans, OppositeHeadingsAtOnePlaceAreTwoClusters) {
   EXPECT_EQ(cluster({at(1, 1, 0.0), at(1, 1, pi), at(1, 1, 0.01), at(1, 1, -pi + 0.01)}).size(), 2U);
 }

@@ -78,6 +78,7 @@ TEST(PartsOfATurn, AreNarrowOrWideEnough) {
   EXPECT_EQ(parts_of_a_turn(radians(30)), 12);
   EXPECT_EQ(parts_of_a_turn(radians(29)), 13);
   EXPECT_EQ(parts_of_a_turn(radians(180)), 2);
+  EXPECT_EQ(parts_of_a_turn(1e12), 1);
   EXPECT_EQ(square_parts_of_a_turn(radians(30)), 12);
   EXPECT_EQ(square_parts_of_a_turn(radians(29)), 16);
   EXPECT_EQ(square_parts_of_a_turn(radians(400)), 4);

@@ -76,6 +76,14 @@ TEST(MovingAlong, ACompanionIsKnownWhileTheRobotStands) {
   expect_none(moving_along.update(standing));
 }
 
+TEST(MovingAlong, WhatIsNearerThanAnArmWhileTheRobotStandsIsNotTakenForIt) {
+  Observation standing = drive(test::furnished_room(), circle(2), {}, {}).observations.back();
+  standing.scan.hits.set(0, {0.05F, 0.0F, 0.0F});
+  MovingAlong moving_along;
+  expect_none(moving_along.update(standing));
+  expect_none(moving_along.update(standing));
+}
+
 TEST(MovingAlong, WhatStandsIsNotTakenForIt) {
   // The circle leads past a pillar, between 1 and 2 m away.
   const Drive noisy = drive(test::furnished_room(), circle(60), {.noise = 0.02}, test::bad_odometry);

@@ -48,6 +48,15 @@ TEST(ClusterRating, StaysAboveZeroHoweverWideTheCluster) {
   EXPECT_DOUBLE_EQ(ratings[0].r_normalised, 1.0);
 }
 
+TEST(ClusterRating, SharesAreNumbersWhereNoTermCounts) {
+  // Eq. 8 divides by the sum of all.
+  ClusterRating rater({.weights = {0.0, 1.0, 0.0, 0.0}});
+  const std::vector<Rating> ratings =
+      rater.rate({{{0}, {}, 1.0, 1.0, 0.0}, {{1}, {}, 1.0, 1.0, 0.0}}, {with_score(0.9), with_score(0.1)});
+  EXPECT_GT(ratings[0].r, 0.0);
+  EXPECT_DOUBLE_EQ(ratings[0].r_normalised, 0.5);
+}
+
 TEST(ClusterRating, TheBestPossibleIsOne) {
   ClusterRating rater({});
   EXPECT_DOUBLE_EQ(rater.rate({{{0}, {}, 0.0, 0.0, 0.0}}, {with_score(1.0)})[0].r, 1.0);

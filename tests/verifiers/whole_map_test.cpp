@@ -186,6 +186,18 @@ TEST(WholeMap, RivalsOutsideOfAPriorAreNone) {
   for (const Hypothesis& rival : found.rivals) EXPECT_LT(rival.map_from_local.x, 3.0);
 }
 
+TEST(WholeMap, AMirrorOutsideOfAPriorIsNone) {
+  // Where the robot is, the map has the long wall alone; 20 m away the mirrored local map fits as a whole.
+  Points wall;
+  for (int i = 0; i < 60; ++i) wall.push_back({0.05F * static_cast<float>(i), 0.0F, 0.0F});
+  Points mirrored = corner(20.0F, 20.0F);
+  std::swap(mirrored.x, mirrored.y);
+  const auto map = map_of({wall, mirrored});
+  EXPECT_TRUE(verification(map, {1.0, 1.0, 0.0}).mirrored_contact);
+  const Prior prior{.region = {.x = 1.0, .y = 1.0, .radius = 3.0}, .heading = {}};
+  EXPECT_FALSE(verification(map, {1.0, 1.0, 0.0}, PoseGate(prior, Pose3{})).mirrored_contact);
+}
+
 TEST(WholeMap, BoxesAreLargerOnLargeMaps) {
   const auto delta_with = [](float width) {
     return verification(map_of({corner(0.0F, 0.0F), corner(width, width)}), {1.0, 1.0, 0.0})

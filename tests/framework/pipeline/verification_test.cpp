@@ -68,6 +68,27 @@ TEST_F(WithVerifier, ADeclarationWithoutRivalStandsAndTellsItsCertificate) {
   EXPECT_THAT(script_->calls, Contains("rescore"));
 }
 
+TEST_F(WithVerifier, AnotherPoseThatIsDeclaredIsVerifiedInItsTurn) {
+  find({});
+  Pose3 declared = declared_;
+  script_->judge = [&](const StepResult&) {
+    return Verdict{VerdictKind::localized, declared, {}, "sure", PoseEstimate{declared, 0.99}};
+  };
+  EXPECT_TRUE(step().verification);
+  // A local map that drifts takes its pose along, by less than what makes a rival each time.
+  for (const double x : {0.9, 1.7, 2.5}) {
+    declared = Pose2{x, 0.1, 0.0};
+    EXPECT_FALSE(step().verification) << x;
+  }
+  declared = Pose2{8.0, 0.1, 0.0};
+  const StepResult jumped = step();
+  ASSERT_TRUE(jumped.verification);
+  EXPECT_EQ(jumped.verdict.kind, VerdictKind::localized);
+  EXPECT_FALSE(step().verification);
+  ++script_->local.epoch;
+  EXPECT_TRUE(step().verification) << "of another local map";
+}
+
 TEST_F(WithVerifier, ARivalWithinTheMarginRefutesIt) {
   find({0.95, 0.72, 0.65});
   const StepResult result = step();

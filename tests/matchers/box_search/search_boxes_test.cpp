@@ -288,6 +288,9 @@ TEST(SearchBoxes, AnswersAlikeForAnyNumberOfThreadsAndGivesUpWhenToldTo) {
   expect_same(one, search(pyramid, points, {2.0, 1.5, 0.0}, rule, 2));
   rule.most_looks = 10;
   EXPECT_FALSE(search(pyramid, points, {2.0, 1.5, 0.0}, rule).is_complete);
+  // As many as it takes, and no fewer, though a single interval of rotations takes most of them.
+  rule.most_looks = one.looks;
+  EXPECT_TRUE(search(pyramid, points, {2.0, 1.5, 0.0}, rule).is_complete);
 }
 
 TEST(SearchBoxes, AFewPlacesAreTheBestOfAll) {

@@ -1,9 +1,11 @@
 #include "matchers/mcl/likelihood_field.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "files.hpp"
 #include "instruction_sets.hpp"
 #include "test_world.hpp"
 
@@ -35,6 +37,15 @@ TEST(LikelihoodField, WeighsAScanAsByHand) {
   field.sum(ends, poses, 1, sums);
   // 0.8 + 0.02, 0.8 exp(-1/2) + 0.02, and 0.02 alone, as 2 m are ten deviations.
   EXPECT_NEAR(sums[0], 0.82 + 0.485225 + 0.02 + 0.02, 0.02);
+}
+
+TEST(LikelihoodField, RefusesAMapThatWouldTakeTooMuchMemory) {
+  MapData data;
+  data.points.push_back({0.0F, 0.0F, 0.0F});
+  data.points.push_back({900.0F, 900.0F, 0.0F});
+  EXPECT_THAT(
+      test::error_of([&] { LikelihoodField(GlobalMap(std::move(data)), {.distance_cell = 0.05}, itself); }),
+      testing::HasSubstr("it would need more than 1 GiB; cut the map"));
 }
 
 TEST(LikelihoodField, IsThatOfTheDistanceEverywhere) {
