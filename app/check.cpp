@@ -10,6 +10,7 @@
 
 #include "app/commands.hpp"
 #include "app/experiment_options.hpp"
+#include "app/numbers.hpp"
 #include "app/standard_streams.hpp"
 #include "evaluation/results/fault_collector.hpp"
 #include "evaluation/running/experiment_loader.hpp"
@@ -86,7 +87,7 @@ void add_check(CLI::App& app, Context& context) {
   command
       ->add_option("--budget-ms", options->budget_ms,
                    "Tell how many looks the searches of a step take in so many ms on this machine")
-      ->check(CLI::Range(0.001, 1e6));
+      ->check(within(0.001, 1e6));
   command->callback([options, &context] { check_all(*options, context); });
 }
 

@@ -76,7 +76,7 @@ void DriveOptions::add_to(CLI::App& command, const std::string& name) {
   command
       .add_option("--max-range", max_range,
                   "CARMEN logs that do not say it: readings from here on met nothing, m")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   add_strict(command, strict);
 }

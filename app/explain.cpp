@@ -6,12 +6,16 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "app/commands.hpp"
 #include "app/experiment_options.hpp"
 #include "app/standard_streams.hpp"
+#include "evaluation/results/file_io.hpp"
+#include "evaluation/results/json_text.hpp"
+#include "evaluation/results/provenance.hpp"
 #include "evaluation/results/results_folder.hpp"
 #include "evaluation/running/experiment_loader.hpp"
 #include "glocal/contact.hpp"
@@ -30,6 +34,7 @@ struct ExplainOptions {
 
 /// A run of which a step is to be explained.
 struct ExplainedRun {
+  std::filesystem::path folder;
   Experiment experiment;
   std::size_t trial = 0, step = 0;
 };
@@ -276,8 +281,20 @@ ExplainedRun explained_run(const ExplainOptions& options, Context& context) {
     throw ConfigError(options.folder,
                       fmt::format("there is no trial {}: the last one is {}", options.trial, last_trial));
   const std::size_t last = steps.value_or(0) > 0 ? *steps - 1 : 0;
-  return {read_stored_experiment(folders.front() / "effective.yaml", options.trust_plugins, context),
+  return {folders.front(),
+          read_stored_experiment(folders.front() / "effective.yaml", options.trust_plugins, context),
           options.trial, options.step.value_or(last)};
+}
+
+/// Throws ConfigError if a file is not what the run read: what follows would be of another run.
+void check_unchanged(const std::filesystem::path& folder, const std::set<std::filesystem::path>& inputs) {
+  const nlohmann::ordered_json read = parse_json(content_of(folder / "provenance.json")).at("inputs_sha256");
+  FileHashes hashes;
+  for (const std::filesystem::path& file : inputs) {
+    if (read.contains(file) && read.at(file) != hashes.of(file))
+      throw ConfigError(folder,
+                        fmt::format("'{}' has changed since; run the experiment again", file.string()));
+  }
 }
 
 void explain(const ExplainOptions& options, Context& context) {
@@ -285,6 +302,7 @@ void explain(const ExplainOptions& options, Context& context) {
   const Experiment& experiment = run.experiment;
   const EvaluationConfig& limits = experiment.evaluation;
   LoadedExperiment loaded = load_experiment(experiment, context.catalog, warn);
+  check_unchanged(run.folder, loaded.inputs);
   const Replayed step = replay(options.folder, run, context.catalog, loaded, Threshold::configured);
   const StepResult& result = step.result;
   const Pose3& truth = step.map_from_robot;

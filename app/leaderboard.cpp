@@ -15,6 +15,7 @@
 #include "app/standard_streams.hpp"
 #include "config/builtin_parts.hpp"
 #include "config/suites.hpp"
+#include "config/variants.hpp"
 #include "evaluation/leaderboard/board_entry.hpp"
 #include "evaluation/leaderboard/board_history.hpp"
 #include "evaluation/leaderboard/board_tables.hpp"
@@ -22,6 +23,7 @@
 #include "evaluation/leaderboard/imported.hpp"
 #include "evaluation/results/atomic_file.hpp"
 #include "evaluation/results/file_io.hpp"
+#include "evaluation/results/file_lock.hpp"
 #include "evaluation/results/provenance.hpp"
 #include "evaluation/running/experiment_loader.hpp"
 #include "evaluation/running/pins.hpp"
@@ -129,14 +131,23 @@ std::string renewal(const BoardEntry& entry) {
 
 /// Writes an entry and its line of the history.
 void store(const BoardOptions& options, const BoardEntry& entry) {
+  if (!is_folder_name(entry.method))
+    throw ConfigError(options.results,
+                      fmt::format("'{}' is no name of a method: it is that of a file; give another "
+                                  "one with --method",
+                                  entry.method));
   const fs::path file = entry_file(options.folder(), entry.suite, entry.method);
+  const fs::path history = options.history();
+  std::vector<fs::path> made;
+  check_written(make_folders(fs::absolute(history).parent_path(), made), history);
+  // Several may add to one board at once.
+  const FileLock lock(history.string() + ".lock", history);
   if (fs::exists(file)) {
     if (!options.force) throw ConfigError(file, "is there already; --force replaces it, and compares both");
     answer("{}", paired_text(read_entry(file), entry));
   }
   const Renewal now = renewal_of(entry);
   const BoardCounts& counts = now.counts;
-  const fs::path history = options.history();
   AtomicFiles files(true);
   files.add(file, to_text(entry));
   files.add(history, content_of(history) + to_line(now));

@@ -81,8 +81,8 @@ class LiveLocalizer {
     recall();
   }
 
-  /// Until it is interrupted, or a recording has come to its end.
-  void run() {
+  /// Until it is interrupted, or a recording has come to its end. How many observations there were.
+  std::size_t run() {
     while (const auto sample = drive_.next()) {
       if (observations_ > 0 && (is_asked_to_begin_ || sample->segment != segment_)) begin_anew();
       segment_ = sample->segment;
@@ -94,6 +94,7 @@ class LiveLocalizer {
     answer(
         "{} observations, {} declarations{}\n", observations_, declarations_,
         drive_.passed_over() > 0 ? fmt::format(", {} observations passed over", drive_.passed_over()) : "");
+    return observations_;
   }
 
  private:
@@ -290,7 +291,14 @@ void live(const LiveOptions& options, Context& context) {
   if (viewers) spdlog::info("foxglove: ws://{}", viewers->endpoint());
   listen_to_interrupts();
   const Experiment experiment = options.changes.read(file, context);
-  LiveLocalizer(experiment, options, context, viewers ? &*viewers : nullptr).run();
+  const std::size_t observations =
+      LiveLocalizer(experiment, options, context, viewers ? &*viewers : nullptr).run();
+  const std::filesystem::path& recording = options.request.recording;
+  if (observations == 0 && !recording.empty() && !is_interrupted())
+    throw ConfigError(
+        recording,
+        "has no scan whose place odometry tells; name what is to be taken with --scans, --odometry "
+        "and --base-frame (glocal bag info lists what it has)");
 }
 
 }  // namespace

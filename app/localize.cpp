@@ -15,6 +15,7 @@
 #include "app/experiment_options.hpp"
 #include "app/interrupts.hpp"
 #include "app/localize_plan.hpp"
+#include "app/numbers.hpp"
 #include "app/reading_bar.hpp"
 #include "app/report_file.hpp"
 #include "app/run_report.hpp"
@@ -180,11 +181,11 @@ void add_localize(CLI::App& app, Context& context) {
                       "Another map, as of another floor; the robot is on any of them (may be repeated)");
   command->add_option("LOG", request.log, "ROS bag, MCAP, CARMEN log, or folder of clouds with odometry.tum")
       ->required();
-  CLI::Option* start = command->add_option("--start", request.start_m, "Begin so far along the drive, m")
-                           ->check(CLI::NonNegativeNumber);
+  CLI::Option* start =
+      command->add_option("--start", request.start_m, "Begin so far along the drive, m")->check(from_zero());
   CLI::Option* every =
       command->add_option("--every", request.every_m, "Begin anew every so many metres, knowing nothing")
-          ->check(CLI::PositiveNumber);
+          ->check(above_zero());
   command->add_flag("--whole", request.whole, "Go on to the end of the drive")
       ->excludes(start)
       ->excludes(every);

@@ -10,6 +10,7 @@
 
 #include "app/commands.hpp"
 #include "app/experiment_options.hpp"
+#include "app/numbers.hpp"
 #include "app/standard_streams.hpp"
 #include "config/overrides.hpp"
 #include "config/reader.hpp"
@@ -202,7 +203,7 @@ void add_map(CLI::App& app, Context& context) {
   align_command->add_option("MAP", aligned->map.file, file)->required();
   align_command->add_option("OTHER", aligned->other.file, file)->required();
   align_command->add_option("--epsilon", aligned->contact_epsilon, "Distance that counts as contact, m")
-      ->check(CLI::Range(0.01, 1.0));
+      ->check(within(0.01, 1.0));
   align_command->callback([aligned, &context] { align(*aligned, context); });
 
   CLI::App* info = map->add_subcommand("info", "Show size, cells and points of a map.");

@@ -10,6 +10,7 @@
 
 #include "app/commands.hpp"
 #include "app/experiment_options.hpp"
+#include "app/numbers.hpp"
 #include "app/standard_streams.hpp"
 #include "evaluation/running/experiment_loader.hpp"
 #include "evaluation/running/mapping_accuracy.hpp"
@@ -99,14 +100,14 @@ void add_mapping(CLI::App& app, Context& context) {
   command->add_flag("--whole", options->windows.whole,
                     "One start only, and the error at the end of the drive or where it is interrupted");
   command->add_option("--every", options->windows.every_m, "Way from one start to the next, m")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   command->add_option("--after", options->windows.after_m, "Way after which the error is taken, m")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   command
       ->add_option("--fail-after", options->windows.fail_after_m, "Way after which failures are counted, m")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   options->experiment.add_overrides_to(*command);
   command->callback([options, &context] { mapping(*options, context); });

@@ -17,6 +17,7 @@
 #include "app/commands.hpp"
 #include "app/drive_options.hpp"
 #include "app/interrupts.hpp"
+#include "app/numbers.hpp"
 #include "app/prepared_case.hpp"
 #include "app/reading_bar.hpp"
 #include "app/standard_streams.hpp"
@@ -271,18 +272,18 @@ void add_prepare(CLI::App& app, Context& context) {
       ->check(CLI::IsMember({"robot", "sensor"}))
       ->capture_default_str();
   command->add_option("--shift", options->shift_s, "Added to the reference's stamps, s")
-      ->check(CLI::Range(-1e6, 1e6));
+      ->check(within(-1e6, 1e6));
   command
       ->add_option("--max-gap", options->max_gap_s,
                    "Reference poses are interpolated between two that are at most this far apart, s")
-      ->check(CLI::Range(1e-3, 3600.0))
+      ->check(within(1e-3, 3600.0))
       ->capture_default_str();
   command->add_option("--relations", options->relations,
                       "Relative poses measured by hand (t1 t2 x y z roll pitch yaw), to check the reference");
   command
       ->add_option("--map-share", options->map_share,
                    "Share of the way that the map is made from (default: chosen from 0.3 to 0.7)")
-      ->check(CLI::Range(0.01, 0.99));
+      ->check(within(0.01, 0.99));
   command
       ->add_option("--blocks", options->blocks,
                    "Map and run take turns so many times (default: once, or five times for a drive that does "

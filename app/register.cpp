@@ -14,6 +14,7 @@
 #include "app/cloud_pairs.hpp"
 #include "app/commands.hpp"
 #include "app/experiment_options.hpp"
+#include "app/numbers.hpp"
 #include "app/standard_streams.hpp"
 #include "config/nearest.hpp"
 #include "config/overrides.hpp"
@@ -253,16 +254,16 @@ void add_register(CLI::App& app, Context& context) {
   command
       ->add_option("--voxel-size", options->voxel_size,
                    "Side of voxels, m (made from the clouds unless given)")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command
       ->add_option("--within", options->within,
                    "Up to what error a pair's pose is right, m (1.5 voxels unless given)")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command->add_option("--unit", options->unit, "Length of the files' unit, m")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   command->add_option("--max-size-gb", options->max_size_gb, "Most that a cloud may take, unpacked, GB")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   command->add_option("--seed", options->seed, "Fixes all random numbers")->capture_default_str();
   command->add_flag("--json", options->json, "One line of JSON a pair");

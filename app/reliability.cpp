@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/numbers.hpp"
 #include "app/standard_streams.hpp"
 #include "evaluation/comparison/named_runs.hpp"
 #include "evaluation/results/number_text.hpp"
@@ -157,11 +158,11 @@ void add_reliability(CLI::App& app, Context& /*context*/) {
   command
       ->add_option("--reference-deviation", options->reference_deviation,
                    "Standard deviation of the reference poses' own errors, m along x and y")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(within(0.0, 1.0));
   command
       ->add_option("--reference-deviation-deg", options->reference_deviation_deg,
                    "The same of their headings, deg")
-      ->check(CLI::Range(0.0, 45.0));
+      ->check(within(0.0, 45.0));
   command->callback([options] { reliability(*options); });
 }
 

@@ -15,6 +15,7 @@
 #include "app/commands.hpp"
 #include "app/experiment_options.hpp"
 #include "app/localize_plan.hpp"
+#include "app/numbers.hpp"
 #include "app/standard_streams.hpp"
 #include "evaluation/results/output_folder.hpp"
 #include "evaluation/results/provenance.hpp"
@@ -163,16 +164,6 @@ void simulate(const SimulateOptions& options, Context& context) {
   folder.commit();
   answer("{} scans, a map of {} x {} cells and an experiment in {}\n", files.drive.observations,
          files.grid.width, files.grid.height, folder.path().string());
-}
-
-/// CLI::Range takes what is no number.
-CLI::Validator within(double low, double high) {
-  const auto fault = [=](const std::string& text) {
-    double value = 0.0;
-    const bool is_within = CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
-    return is_within ? std::string() : fmt::format("{} is not a number from {} to {}", text, low, high);
-  };
-  return {fault, fmt::format("{} to {}", low, high)};
 }
 
 void SiteOptions::add_to(CLI::App& command) {

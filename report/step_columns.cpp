@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "evaluation/results/results_folder.hpp"
 #include "report/numbers.hpp"
 
 namespace glocal {
@@ -17,7 +18,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array stages = {"local_map", "match", "cluster", "rate"};
 constexpr std::array numbers = {"local_map_points", "omega_best", "score_best", "omega_max",
                                 "proposals",        "hypotheses", "clusters"};
 constexpr std::array optional_numbers = {"omega_place", "translation_error_m", "rotation_error_deg",
@@ -93,12 +93,10 @@ void StepColumns::add(const Json& line) {
 }
 
 void StepColumns::add_numbers(const Json& line) {
-  const Json& times = line.at("stage_ms");
-  double all = 0.0;
-  for (const char* stage : stages) all += times.at(stage).get<double>();
-  step_ms_.push_back(static_cast<float>(all));
-  columns_["step_ms"].push_back(short_number(all, digits));
-  columns_["match_ms"].push_back(number(times.at("match")));
+  const StageTimes times = stage_times(line);
+  step_ms_.push_back(static_cast<float>(times.total()));
+  columns_["step_ms"].push_back(short_number(times.total(), digits));
+  columns_["match_ms"].push_back(short_number(times.match, digits));
   for (const char* key : numbers) columns_[key].push_back(number(line.at(key)));
   for (const char* key : optional_numbers) columns_[key].push_back(number_or_null(line, key));
 }

@@ -189,14 +189,13 @@ void add_times(const Compared& compared, std::size_t method, std::size_t baselin
 /// tests take them to be.
 void add_overlaps(const Compared& compared, Sentences& warnings) {
   const PairedTrials& paired = compared.paired;
-  // Of each trial the way to the next start of its case; none behind the last one.
+  // Of each trial the way to the next start of its case and seed; none behind the last one.
   std::vector<std::optional<double>> gaps(paired.trials.size());
-  for (std::size_t p = 0; p + 1 < paired.places.size(); ++p) {
-    const PairedTrials::Place& place = paired.places[p];
-    const PairedTrials::Place& next = paired.places[p + 1];
-    if (next.case_number != place.case_number) continue;
-    for (std::size_t t = place.begin; t < place.end; ++t)
-      gaps[t] = paired.trials[next.begin].start.distance_m - paired.trials[t].start.distance_m;
+  std::vector<std::optional<std::size_t>> before(paired.cells.size());
+  for (std::size_t t = 0; t < paired.trials.size(); ++t) {
+    const auto& [cell, start] = paired.trials[t];
+    if (before[cell]) gaps[*before[cell]] = start.distance_m - paired.trials[*before[cell]].start.distance_m;
+    before[cell] = t;
   }
   Sentences overlapping;
   for (std::size_t m = 0; m < compared.methods.size(); ++m) {

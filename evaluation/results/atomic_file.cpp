@@ -19,11 +19,18 @@ AtomicFiles::~AtomicFiles() {
 }
 
 void AtomicFiles::add(const fs::path& file, std::string_view content) {
-  const fs::path target = fs::absolute(file).lexically_normal();
+  fs::path target = fs::absolute(file).lexically_normal();
   std::error_code error;
+  // What a link leads to is replaced, not the link.
+  if (fs::is_symlink(target, error)) {
+    target = fs::canonical(target, error);
+    if (error) throw ConfigError(file, "is a link that leads nowhere; remove it, or name another file");
+  }
   if (fs::is_directory(target, error)) {
     throw ConfigError(file, "is a folder; name a file");
   }
+  if (fs::exists(target, error) && !fs::is_regular_file(target, error))
+    throw ConfigError(file, "is a device or a pipe, which would be replaced; name a file");
   if (!replace_ && fs::exists(target, error)) {
     throw ConfigError(file, "the file exists; choose another name, or replace it with --force");
   }

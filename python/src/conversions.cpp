@@ -44,7 +44,12 @@ Pose3 in_space(const double* row) {
 /// Of a matrix, row by row.
 Pose3 of_matrix(const double* m) {
   const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> matrix(m);
-  return {matrix.topRightCorner<3, 1>(), Quaternion(matrix.topLeftCorner<3, 3>()).normalized()};
+  const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
+  constexpr double tolerance = 1e-6;
+  if (!rotation.isUnitary(tolerance) || !(rotation.determinant() > 0.0) ||
+      !matrix.row(3).isApprox(Eigen::RowVector4d::UnitW(), tolerance))
+    throw py::value_error("a pose's matrix must be a rotation, a translation and the last row 0, 0, 0, 1");
+  return {matrix.topRightCorner<3, 1>(), Quaternion(rotation).normalized()};
 }
 
 constexpr py::ssize_t planar_numbers = 3;

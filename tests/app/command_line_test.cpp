@@ -55,6 +55,17 @@ TEST_F(CommandLine, OptionsThatWereRenamedSayWhatTheyAreNow) {
   EXPECT_THAT(run("convert a.log b.mcap").err, HasSubstr("--out is required"));
 }
 
+TEST_F(CommandLine, WhatIsNoNumberIsNoNumberOfAnOption) {
+  for (const char* command :
+       {"check --budget-ms", "convert a.log -o b.mcap --max-range", "localize map.yaml a.log --every",
+        "map align a b --epsilon", "mapping --after", "prepare a.log -o b --max-gap", "register a b --unit",
+        "reliability a --reference-deviation"}) {
+    for (const char* number : {"nan", "inf", "-1", "1x"})
+      EXPECT_THAT(refusal(run(std::string(command) + " " + number)), HasSubstr(number)) << command;
+    EXPECT_THAT(run(std::string(command) + " nan").err, HasSubstr("nan is not a number")) << command;
+  }
+}
+
 /// "run", "map build", … of what the program says of itself.
 std::vector<std::string> commands_in(const std::string& help) {
   std::vector<std::string> commands;

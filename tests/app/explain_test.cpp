@@ -256,6 +256,16 @@ TEST_F(ExplainCommand, NumbersAreThoseOfTheRun) {
   }
 }
 
+TEST_F(ExplainCommand, TellsNothingOfARunWhoseInputsHaveChanged) {
+  simulate_room();
+  good(run("run " + file("room/experiment.yaml") +
+           " --quiet --set 'trials={starts_m: [0], max_steps: 2}' --out " + folder()));
+  good(run("explain " + folder() + " --trial 0 --step 0"));
+  std::ofstream(file("room/drive.log"), std::ios::app) << "# more\n";
+  EXPECT_THAT(refusal(run("explain " + folder() + " --trial 0 --step 0")),
+              HasSubstr("drive.log' has changed since; run the experiment again"));
+}
+
 TEST_F(ExplainCommand, ReportsFaults) {
   EXPECT_THAT(run("explain " + folder() + " --trial 0 --step 0").err, HasSubstr("is no folder"));
   run_lab();

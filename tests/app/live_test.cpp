@@ -123,6 +123,13 @@ TEST_F(Live, GoesOnThoughItsPoseCannotBeKeptButDoesNotBeginSo) {
       HasSubstr("state.json: cannot write: Not a directory"));
 }
 
+TEST_F(Live, ARecordingWithoutObservationsIsAnError) {
+  for (const char* wrong : {"--scans /nope", "--odometry /nope", "--base-frame nope"})
+    EXPECT_THAT(refusal(live("drive.mcap", std::string(wrong) + " --out " + file("live"))),
+                HasSubstr("drive.mcap: error: has no scan whose place odometry tells; name"))
+        << wrong;
+}
+
 TEST_F(Live, ItsOwnRecordingGivesTheSameAnswers) {
   good(live("drive.mcap", "--tf --out " + file("live") + " --record " + file("again.mcap")));
   expect_same(comparable(file("live.steps.jsonl")), steps_of_localize("again.mcap"));

@@ -36,7 +36,8 @@ def test_equal_poses_are_equal_and_hash_alike():
     assert glocal.Pose(1, 2, 0.5) != "a pose"
 
 
-@pytest.mark.parametrize("wrong", [[1, 2], [[1, 2], [3, 4]], "here", [1, 2, 3, 1, 1, 0, 0], [0, 0, 0, math.nan, 0, 0, 0]])
+@pytest.mark.parametrize("wrong", [[1, 2], [[1, 2], [3, 4]], "here", [1, 2, 3, 1, 1, 0, 0], [0, 0, 0, math.nan, 0, 0, 0],
+                                   np.diag([2.0, 2, 2, 1]), np.diag([1.0, -1, 1, 1]), np.zeros((4, 4)), np.diag([1.0, 1, 1, 2])])
 def test_what_is_no_pose_is_refused(wrong):
     with pytest.raises(ValueError, match="pose"):
         glocal.Pose(wrong)
@@ -101,6 +102,12 @@ def test_a_map_of_a_grid_has_points_at_the_centres_of_occupied_cells():
     assert made.resolution == 0.5
     assert np.array_equal(made.grid.cells, cells)
     assert made.grid.map_from_grid == glocal.Pose(10, 20, 0)
+
+
+@pytest.mark.parametrize("wrong", [np.full((2, 2), 257), np.full((2, 2), -1), np.full((2, 2), 0.9), np.full((2, 2), True)])
+def test_cells_that_are_no_cells_are_refused(wrong):
+    with pytest.raises(ValueError, match="cell"):
+        glocal.OccupancyGrid(wrong, 0.5)
 
 
 def test_points_of_a_map_are_views_that_keep_it():

@@ -1,6 +1,8 @@
 #include "evaluation/results/atomic_file.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <fstream>
 #include <iterator>
@@ -53,6 +55,24 @@ TEST(AtomicFiles, LeaveNothingWithoutCommit) {
   }
   EXPECT_EQ(entries(folder / ""), 1);
   EXPECT_EQ(content_of(folder / "b.txt"), "old");
+}
+
+TEST(AtomicFiles, ReplaceWhatALinkLeadsToAndNoDevice) {
+  const test::TemporaryFolder folder;
+  folder.write("real.txt", "old");
+  fs::create_symlink(folder / "real.txt", folder / "link.txt");
+  fs::create_symlink(folder / "nowhere", folder / "lost.txt");
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  AtomicFiles files(true);
+  files.add(folder / "link.txt", "new");
+  EXPECT_THAT(error_of([&] { files.add(folder / "lost.txt", "new"); }),
+              testing::HasSubstr("is a link that leads nowhere"));
+  EXPECT_THAT(error_of([&] { files.add(folder / "pipe", "new"); }),
+              testing::HasSubstr("is a device or a pipe"));
+  files.commit();
+  EXPECT_TRUE(fs::is_symlink(folder / "link.txt"));
+  EXPECT_EQ(content_of(folder / "real.txt"), "new");
+  EXPECT_TRUE(fs::is_fifo(folder / "pipe"));
 }
 
 TEST(AtomicFiles, ReplaceOnlyWhenAllowed) {
