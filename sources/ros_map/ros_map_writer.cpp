@@ -6,6 +6,8 @@
 #include <array>
 #include <cstddef>
 
+#include "glocal/yaml.hpp"
+
 namespace glocal::ros_map {
 namespace {
 
@@ -42,14 +44,14 @@ void write_trinary_pgm(const OccupancyGrid& grid, const std::function<void(std::
 std::string ros_map_yaml(const OccupancyGrid& grid, const std::string& image_name, const Vector3& origin) {
   const Pose2& corner = grid.map_from_grid;
   return fmt::format(
-      "image: \"{}\"\n"
+      "image: {}\n"
       "mode: trinary\n"
       "resolution: {}\n"
       "origin: [{}, {}, {}]\n"
       "negate: 0\n"
       "occupied_thresh: 0.65\n"
       "free_thresh: 0.196\n",
-      image_name, grid.resolution, origin.x() + corner.x, origin.y() + corner.y, corner.theta);
+      to_yaml(image_name), grid.resolution, origin.x() + corner.x, origin.y() + corner.y, corner.theta);
 }
 
 }  // namespace glocal::ros_map

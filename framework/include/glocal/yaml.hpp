@@ -1,7 +1,9 @@
-// Described structs from YAML files, strictly.
+// Described structs from YAML files, strictly, and text for such files.
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <string_view>
 
 #include "glocal/params.hpp"
 
@@ -16,5 +18,8 @@ enum class OtherKeys { refused, passed_over };
 /// file:line:column.
 void read_yaml(const std::filesystem::path& file, AnyParams& params,
                OtherKeys other_keys = OtherKeys::refused);
+
+/// Text as a value in YAML: quoted unless it is a plain word.
+[[nodiscard]] std::string to_yaml(std::string_view value);
 
 }  // namespace glocal

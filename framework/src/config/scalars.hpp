@@ -8,6 +8,7 @@
 
 #include "config/node.hpp"
 #include "glocal/params.hpp"
+#include "glocal/yaml.hpp"
 
 namespace glocal {
 
@@ -43,8 +44,6 @@ using Refusal = std::optional<std::string>;
 [[nodiscard]] std::string to_yaml(double value);
 /// `auto` for none.
 [[nodiscard]] std::string to_yaml(const std::optional<double>& value);
-/// Quoted unless it is a plain word.
-[[nodiscard]] std::string to_yaml(std::string_view value);
 /// `data:` paths as written, all others absolute.
 [[nodiscard]] std::string to_yaml(const FilePath& value);
 

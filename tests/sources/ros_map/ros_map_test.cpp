@@ -214,6 +214,16 @@ TEST(RosMapWriter, IsReadBack) {
   }
 }
 
+TEST(RosMapWriter, TakesAnyNameOfAnImage) {
+  const OccupancyGrid grid{{}, 0.05, 1, 1, {o}};
+  for (const char* name : {"a\"b.pgm", "a\\b.pgm", "a: b # c.pgm", "a\nb.pgm", "1.5", "größe.pgm"}) {
+    const test::TemporaryFolder folder;
+    folder.write(name, pgm(trinary_image(grid)));
+    const auto file = folder.write("map.yaml", ros_map_yaml(grid, name));
+    EXPECT_EQ(RosMap({test::file_path(file)}, {}).load().grid.cells, grid.cells) << name;
+  }
+}
+
 TEST(RosMapWriter, WritesTheSameImagePieceByPiece) {
   OccupancyGrid grid{{0.0, 0.0, 0.0}, 0.1, 3, 700, PackedCells(2100)};
   for (std::size_t i = 0; i < 2100; ++i) grid.cells[i] = i % 7 == 0 ? o : i % 5 == 0 ? u : f;
