@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <array>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -15,11 +16,23 @@ namespace {
 using bags::CdrWriter;
 using bags::Header;
 
+/// In a frame where all headings are larger by an angle, rad.
+PoseCovariance turned(const PoseCovariance& a, double angle) {
+  const double c = std::cos(angle);
+  const double s = std::sin(angle);
+  return {.xx = c * c * a.xx - 2.0 * c * s * a.xy + s * s * a.yy,
+          .xy = c * s * (a.xx - a.yy) + (c * c - s * s) * a.xy,
+          .xt = c * a.xt - s * a.yt,
+          .yy = s * s * a.xx + 2.0 * c * s * a.xy + c * c * a.yy,
+          .yt = s * a.xt + c * a.yt,
+          .tt = a.tt};
+}
+
 /// Of x, y, z and rotations about x, y and z, row by row; what is not known is 0.
-std::array<double, 36> covariance_of(const std::optional<PoseEstimate>& estimate) {
+std::array<double, 36> rows_of(const std::optional<PoseCovariance>& covariance) {
   std::array<double, 36> rows{};
-  if (!estimate || !estimate->covariance) return rows;
-  const PoseCovariance& c = *estimate->covariance;
+  if (!covariance) return rows;
+  const PoseCovariance& c = *covariance;
   constexpr std::size_t x = 0, y = 1, heading = 5;
   const auto set = [&](std::size_t row, std::size_t column, double value) {
     rows.at(row * 6 + column) = rows.at(column * 6 + row) = value;
@@ -34,10 +47,10 @@ std::array<double, 36> covariance_of(const std::optional<PoseEstimate>& estimate
 }
 
 std::string pose_message(const Header& header, const Pose3& pose,
-                         const std::optional<PoseEstimate>& estimate) {
+                         const std::optional<PoseCovariance>& covariance) {
   CdrWriter writer;
   writer.header(header).rigid_motion(pose);
-  for (const double value : covariance_of(estimate)) writer.number(value);
+  for (const double value : rows_of(covariance)) writer.number(value);
   return writer.message();
 }
 
@@ -85,8 +98,11 @@ void Answers::tell(const StepResult& result, std::int64_t stamp_ns, const Pose3&
   };
   const auto publish_pose = [&](const std::string& topic, const Pose3& pose) {
     const MapPlace place = map_.place_of(pose);
+    std::optional<PoseCovariance> covariance;
+    if (const auto& estimate = result.verdict.estimate; estimate && estimate->covariance)
+      covariance = turned(*estimate->covariance, place.map_from_robot.heading() - pose.heading());
     publish(topic, "geometry_msgs/PoseWithCovarianceStamped",
-            pose_message(header(place), place.map_from_robot, result.verdict.estimate));
+            pose_message(header(place), place.map_from_robot, covariance));
   };
   const Header common{stamp_ns, frames_.map};
   const bool is_declared = result.verdict.kind == VerdictKind::localized;

@@ -17,8 +17,8 @@ namespace glocal::live {
 /// - `/glocal/candidates` (PoseArray): poses among which nothing decides yet;
 /// - `/diagnostics` (DiagnosticArray): verdict, confidence, margin and reason;
 /// - `/tf`, if asked for: map to odom while a pose is declared.
-/// Of several maps each pose is in the frame of the one it is on, which is called as that map; candidates,
-/// which may lie on several, are in the common frame.
+/// Of several maps each pose, and its covariance, is in the frame of the one it is on, which is called as
+/// that map; candidates, which may lie on several, are in the common frame.
 class Answers {
  public:
   struct Frames {

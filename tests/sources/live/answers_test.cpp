@@ -147,6 +147,33 @@ TEST_F(Published, OfSeveralMapsEachPoseIsInTheFrameOfItsOwn) {
   EXPECT_THAT(diagnostics(), Contains(Pair("candidates_on", "ground, first")));
 }
 
+TEST_F(Published, OfSeveralMapsTheCovarianceIsInTheFrameOfThePose) {
+  MapData data;
+  data.parts = {{"ground", {}, 0.0}, {"first", Pose2{100.0, 50.0, radians(90.0)}, 90.0}};
+  const GlobalMap map(std::move(data));
+  Answers answers(link_, map, "", {});
+  StepResult result = declared();
+  result.verdict.map_from_robot = result.verdict.estimate->map_from_robot = Pose2{104.0, 55.0, 0.5};
+  tell(result, answers);
+  for (const char* topic : {"/initialpose", "/glocal/pose"}) {
+    read(topic, [](const RecordedMessage& message) {
+      const auto pose = glocal::bags::read_pose(message);
+      EXPECT_NEAR(pose.pose.x, 5.0, 1e-12);
+      EXPECT_NEAR(pose.pose.y, -4.0, 1e-12);
+      // What was along y (variance 4) is along x, and what was along x (1) is against y.
+      const std::vector<double> c(pose.covariance.begin(), pose.covariance.end());
+      ASSERT_EQ(c.size(), 36U);
+      EXPECT_NEAR(c[0], 4.0, 1e-12);
+      EXPECT_NEAR(c[1], -2.0, 1e-12);
+      EXPECT_NEAR(c[6], -2.0, 1e-12);
+      EXPECT_NEAR(c[7], 1.0, 1e-12);
+      EXPECT_NEAR(c[5], 5.0, 1e-12);
+      EXPECT_NEAR(c[11], -3.0, 1e-12);
+      EXPECT_EQ(c[35], 6.0);
+    });
+  }
+}
+
 TEST_F(Published, MapToOdomIfAskedFor) {
   Answers answers(link_, map_, "", {.publishes_tf = true});
   tell(declared(), answers);
