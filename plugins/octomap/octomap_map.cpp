@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include "glocal/error.hpp"
 #include "tree_file.hpp"
@@ -10,30 +11,61 @@
 namespace glocal::octomap_plugin {
 namespace {
 
-/// Smallest voxels of a tree, numbered along x, y and z as in octomap::OcTreeKey.
-struct Voxel {
-  int x, y, z;
+/// A leaf of any size between the heights: smallest voxels from `first` up to before `end`, numbered along x,
+/// y and z as in octomap::OcTreeKey.
+struct Block {
+  Eigen::Vector3i first, end;
+  bool occupied = false;
 };
 
 /// The number of the voxel that begins at the tree's origin.
 constexpr int middle = 1 << 15;
 
-/// Calls visit(voxel, occupied) for each smallest voxel whose centre lies between the heights. Leaves of any
-/// size are taken apart.
+/// Calls visit(block) for each leaf that has voxels whose centres lie between the heights.
 template <class Visit>
-void for_each_voxel(const octomap::OcTree& tree, const OctomapMap::Params& params, Visit visit) {
+void for_each_block(const octomap::OcTree& tree, const OctomapMap::Params& params, Visit visit) {
+  const auto height = [&](int z) { return tree.keyToCoord(static_cast<octomap::key_type>(z)); };
   for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) {
-    const bool occupied = leaf->getOccupancy() > params.occupied_above;
-    const octomap::OcTreeKey first = leaf.getIndexKey();
+    const octomap::OcTreeKey key = leaf.getIndexKey();
     const int side = 1 << (tree.getTreeDepth() - leaf.getDepth());
-    for (int z = first[2]; z < first[2] + side; ++z) {
-      const double height = tree.keyToCoord(static_cast<octomap::key_type>(z));
-      if (height < params.min_height || height > params.max_height) continue;
-      for (int y = first[1]; y < first[1] + side; ++y) {
-        for (int x = first[0]; x < first[0] + side; ++x) visit(Voxel{x, y, z}, occupied);
-      }
+    Block block{{key[0], key[1], key[2]}, {key[0] + side, key[1] + side, key[2] + side}};
+    int& low = block.first.z();
+    int& high = block.end.z();
+    while (low < high && height(low) < params.min_height) ++low;
+    while (low < high && height(high - 1) > params.max_height) --high;
+    if (low == high) continue;
+    block.occupied = leaf->getOccupancy() > params.occupied_above;
+    visit(block);
+  }
+}
+
+/// Calls visit(x, y, z) for each smallest voxel of a block.
+template <class Visit>
+void for_each_voxel(const Block& block, Visit visit) {
+  for (int z = block.first.z(); z < block.end.z(); ++z) {
+    for (int y = block.first.y(); y < block.end.y(); ++y) {
+      for (int x = block.first.x(); x < block.end.x(); ++x) visit(x, y, z);
     }
   }
+}
+
+/// What a tree has between the heights.
+struct Size {
+  Eigen::AlignedBox2i extent;            ///< Of the voxels, along x and y.
+  std::uint64_t free = 0, occupied = 0;  ///< Smallest voxels.
+};
+
+/// Leaf by leaf: a few bytes may be more voxels than there is time for.
+Size size_of(const octomap::OcTree& tree, const OctomapMap::Params& params) {
+  Size size;
+  for_each_block(tree, params, [&](const Block& block) {
+    size.extent.extend(Eigen::Vector2i(block.first.head<2>()));
+    size.extent.extend(Eigen::Vector2i(block.end.head<2>() - Eigen::Vector2i::Ones()));
+    const Eigen::Vector3i sides = block.end - block.first;
+    (block.occupied ? size.occupied : size.free) +=
+        static_cast<std::uint64_t>(sides.cast<std::int64_t>().prod());
+  });
+  return size;
 }
 
 }  // namespace
@@ -80,9 +112,8 @@ MapData OctomapMap::load() {
   const auto refuse = [&](const char* why) { throw ConfigError(params_.path.resolved, why); };
   const std::unique_ptr<octomap::OcTree> tree = read_tree(params_.path.resolved);
   const bool in_space = params_.points == "space";
-  Eigen::AlignedBox2i extent;
-  for_each_voxel(*tree, params_,
-                 [&](const Voxel& v, bool /*occupied*/) { extent.extend(Eigen::Vector2i(v.x, v.y)); });
+  const Size size = size_of(*tree, params_);
+  const Eigen::AlignedBox2i& extent = size.extent;
   if (extent.isEmpty()) refuse("has no voxel between min_height and max_height; take a wider band");
 
   MapData map;
@@ -99,30 +130,43 @@ MapData OctomapMap::load() {
   grid.width = extent.sizes().x() + 1;
   grid.height = extent.sizes().y() + 1;
   constexpr double most_cells = 64e6;
-  constexpr std::size_t most_bricks = 4'000'000;
+  constexpr std::size_t most_bricks = 4'000'000, voxels_of_brick = 512;
+  constexpr std::uint64_t most_bytes = 2'000'000'000, point_size = 3 * sizeof(float);
+  constexpr const char* too_much_free_space =
+      "has free space in more than 4 million cubes of 8 voxels a side; cut it smaller, or reduce its depth";
   if (static_cast<double>(grid.width) * grid.height > most_cells) {
     refuse("covers more than 64 million cells; cut it smaller, or reduce its depth");
   }
+  if (size.occupied * point_size > most_bytes)
+    refuse(
+        "its occupied voxels have more than 2 GB as points; if it is the right file, cut it smaller, or "
+        "reduce its depth");
+  if (size.free > most_bricks * voxels_of_brick) refuse(too_much_free_space);
   const auto cells = static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height);
   if (in_space) map.free_voxels = FreeVoxels(map_from_tree, side);
   std::vector<int> occupied_voxels(cells, 0);
   grid.cells = PackedCells(cells);
-  for_each_voxel(*tree, params_, [&](const Voxel& v, bool occupied) {
-    const std::size_t cell = grid.index(v.x - extent.min().x(), v.y - extent.min().y());
-    if (!occupied) {
-      grid.cells[cell] = Cell::free;
-      if (in_space) map.free_voxels.add(v.x - middle, v.y - middle, v.z - middle);
-      if (map.free_voxels.bricks() > most_bricks)
-        refuse(
-            "has free space in more than 4 million cubes of 8 voxels a side; cut it smaller, or reduce its "
-            "depth");
-      return;
-    }
-    ++occupied_voxels[cell];
+  if (in_space) map.points.reserve(size.occupied);
+  const auto add_free = [&](int x, int y, int z) {
+    grid.cells[grid.index(x - extent.min().x(), y - extent.min().y())] = Cell::free;
+    if (in_space) map.free_voxels.add(x - middle, y - middle, z - middle);
+    if (map.free_voxels.bricks() > most_bricks) refuse(too_much_free_space);
+  };
+  const auto add_occupied = [&](int x, int y, int z) {
+    const int column = x - extent.min().x();
+    const int row = y - extent.min().y();
+    ++occupied_voxels[grid.index(column, row)];
     if (!in_space) return;
-    const Pose2 centre = grid.centre(v.x - extent.min().x(), v.y - extent.min().y());
+    const Pose2 centre = grid.centre(column, row);
     map.points.push_back({static_cast<float>(centre.x), static_cast<float>(centre.y),
-                          static_cast<float>(tree->keyToCoord(static_cast<octomap::key_type>(v.z)))});
+                          static_cast<float>(tree->keyToCoord(static_cast<octomap::key_type>(z)))});
+  };
+  for_each_block(*tree, params_, [&](const Block& block) {
+    if (block.occupied) {
+      for_each_voxel(block, add_occupied);
+    } else {
+      for_each_voxel(block, add_free);
+    }
   });
   for (std::size_t cell = 0; cell < cells; ++cell) {
     const bool is_over_floor = in_space && grid.cells[cell] == Cell::free;

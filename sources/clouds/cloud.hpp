@@ -62,6 +62,8 @@ class CloudBuilder {
   CloudBuilder(std::string file, const CloudOptions& options, const ChannelColumns& columns,
                double time_unit = 1.0);
 
+  /// Makes room for so many points, so that they take no more memory than they need.
+  void reserve(std::size_t points) { cloud_.points.reserve(points); }
   /// The next point; values of channels without column are ignored. Throws ConfigError if it is beyond
   /// `farthest_m`.
   void add(const PointValues& values, int line = 0);

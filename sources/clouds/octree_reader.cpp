@@ -82,7 +82,8 @@ class OctreeHeader {
   double resolution_ = 0.0;
 };
 
-/// Walks over the nodes as they are stored: each inner node before its children.
+/// Walks over the nodes as they are stored, each inner node before its children: once to count the voxels,
+/// and once more to take them.
 class OctreeReader {
  public:
   OctreeReader(std::string_view content, const std::string& file, const CloudOptions& options)
@@ -95,7 +96,10 @@ class OctreeReader {
         cloud_(file, options, channel_columns({"x", "y", "z"}, file, 0)) {}
 
   Cloud read() {
-    if (header_.nodes() > 0) read_node({0, 0, 0}, 0);
+    const std::size_t begin = at_;
+    if (header_.nodes() > 0) {
+      read_node({0, 0, 0}, 0, [&](const Key& /*first*/, std::uint32_t side) { count_leaf(side); });
+    }
     if (nodes_ != header_.nodes())
       refuse_cloud(
           file_, 0,
@@ -103,6 +107,9 @@ class OctreeReader {
                       "fresh copy",
                       header_.nodes(), nodes_, at_));
     if (voxels_ == 0) refuse_cloud(file_, 0, "has no occupied voxels; give another file");
+    cloud_.reserve(voxels_);
+    at_ = begin;
+    read_node({0, 0, 0}, 0, [&](const Key& first, std::uint32_t side) { add_leaf(first, side); });
     Cloud cloud = cloud_.finish();
     cloud.voxel_size = unit_ * header_.resolution();
     return cloud;
@@ -115,8 +122,9 @@ class OctreeReader {
   static constexpr int tree_depth = 16;
   static constexpr double middle_key = 32768.0;  ///< Of the voxel that begins at the origin.
 
-  /// An inner node `depth` below the root.
-  void read_node(const Key& first, int depth) {
+  /// An inner node `depth` below the root. Calls visit(first, side) for each occupied leaf.
+  template <class Visit>
+  void read_node(const Key& first, int depth, Visit visit) {
     constexpr std::size_t node_size = 2, children = 8;
     if (content_.size() - at_ < node_size)
       refuse_at(at_, fmt::format("the file ends after {} of {} nodes", nodes_, header_.nodes()));
@@ -131,15 +139,15 @@ class OctreeReader {
       const Key key = {first[0] + (i & 1U) * side, first[1] + (i >> 1U & 1U) * side,
                        first[2] + (i >> 2U & 1U) * side};
       if (child == Child::free || child == Child::occupied) ++nodes_;
-      if (child == Child::occupied) add_leaf(key, side);
+      if (child == Child::occupied) visit(key, side);
       if (child != Child::inner) continue;
       if (side == 1) refuse_at(begin, fmt::format("a node is deeper than {}", tree_depth));
-      read_node(key, depth + 1);
+      read_node(key, depth + 1, visit);
     }
   }
 
   /// A leaf above the finest size is occupied everywhere.
-  void add_leaf(const Key& first, std::uint32_t side) {
+  void count_leaf(std::uint32_t side) {
     constexpr std::uint64_t point_size = 3 * sizeof(float);
     voxels_ += std::uint64_t{side} * side * side;
     if (static_cast<double>(voxels_ * point_size) > max_bytes_)
@@ -147,6 +155,9 @@ class OctreeReader {
                    fmt::format("its occupied voxels have more than {} GB as points; if it is the right file, "
                                "thin it out",
                                max_bytes_ / 1e9));
+  }
+
+  void add_leaf(const Key& first, std::uint32_t side) {
     const auto centre = [&](std::uint32_t key) {
       return (static_cast<double>(key) - middle_key + 0.5) * header_.resolution();
     };

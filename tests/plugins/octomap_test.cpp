@@ -127,6 +127,32 @@ TEST_F(Octomap, ALargeLeafIsTakenApart) {
   EXPECT_NEAR(*std::max_element(map.points.z.begin(), map.points.z.end()), 0.35, 1e-6);
 }
 
+TEST_F(Octomap, LargeLeavesAreRefusedBeforeTheyAreTakenApart) {
+  // All of a tree in eight leaves, and one leaf of 4096 voxels a side.
+  std::vector<TreeLeaf> eighths;
+  for (int i = 0; i < 8; ++i)
+    eighths.push_back({.x = (i & 1) << 15, .y = (i >> 1 & 1) << 15, .z = (i >> 2) << 15, .depth = 1});
+  EXPECT_THAT(fault(bt_file(eighths, 0.1)), HasSubstr("covers more than 64 million cells"));
+  for (const char* points : {"plan", "space"}) {
+    const std::string params = std::string("points: ") + points + "\nmax_height: 1000\n";
+    EXPECT_THAT(
+        fault(bt_file({{.depth = 4}}, 0.1), params),
+        HasSubstr("its occupied voxels have more than 2 GB as points; if it is the right file, cut it"));
+    EXPECT_THAT(fault(bt_file({{.log_odds = -1.0F, .depth = 4}}, 0.1), params),
+                HasSubstr("has free space in more than 4 million cubes of 8 voxels a side"));
+  }
+}
+
+TEST_F(Octomap, ALargeLeafIsCutAtTheHeights) {
+  const MapData map =
+      load(bt_file({{.depth = 8}}, 0.1), "points: space\nmin_height: 0.11\nmax_height: 0.36\n");
+  // Centres at 0.15, 0.25 and 0.35 m.
+  EXPECT_EQ(map.points.size(), 3U * 256U * 256U);
+  EXPECT_EQ(map.points.x.capacity(), map.points.size());
+  EXPECT_NEAR(*std::min_element(map.points.z.begin(), map.points.z.end()), 0.15, 1e-6);
+  EXPECT_NEAR(*std::max_element(map.points.z.begin(), map.points.z.end()), 0.35, 1e-6);
+}
+
 TEST_F(Octomap, TheTreeCanLieAnywhereInTheMap) {
   const MapData map = load(bt_file({{.x = 32778}}, 0.1), "tree_pose: [2.0, 3.0, 90.0]\n");
   // (1.05, 0.05), turned to (-0.05, 1.05).

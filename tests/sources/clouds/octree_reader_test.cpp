@@ -126,6 +126,12 @@ TEST(OctreeReader, BoundsWhatLargeLeavesAre) {
   EXPECT_THAT(fault(bt_file({{.depth = 1}}, 0.1)), HasSubstr("have more than 2 GB as points"));
 }
 
+TEST(OctreeReader, TakesNoMoreMemoryThanItsPoints) {
+  const Points points = read(bt_file({{.depth = 12}, {.x = 40000}}, 0.1)).points;
+  ASSERT_EQ(points.size(), 4097U);
+  for (const auto* axis : {&points.x, &points.y, &points.z}) EXPECT_EQ(axis->capacity(), 4097U);
+}
+
 TEST(OctreeReader, RefusesEachCutAndReadsOrRefusesEachChange) {
   const std::string tree = bt_file({{}, {.x = 32800}, {.x = 32700, .log_odds = -1.0F}, {.z = 1}}, 0.1);
   ASSERT_EQ(read(tree).points.size(), 3U);
