@@ -71,6 +71,32 @@ const StampedPose* nearest_pose(const std::vector<StampedPose>& poses, double st
   return nearest;
 }
 
+/// Whether numbers of clouds and stamps of poses, as many of both, are on different scales, as 0, 1, 2 … and
+/// 0.0, 0.1, 0.2 … are.
+bool differ_in_scale(const std::vector<DriveCloud>& clouds, const std::vector<StampedPose>& poses) {
+  constexpr double alike = 1.1;
+  const auto [shorter, longer] =
+      std::minmax({clouds.back().stamp - clouds.front().stamp, poses.back().stamp - poses.front().stamp});
+  return longer > alike * shorter;
+}
+
+/// Whether the numbers may count the clouds, but the stamps are times.
+bool are_counts_and_times(const std::vector<DriveCloud>& clouds, const std::vector<StampedPose>& poses) {
+  const auto is_whole = [](const auto& stamped) {
+    return std::abs(stamped.stamp - std::round(stamped.stamp)) <= max_stamp_difference;
+  };
+  return std::all_of(clouds.begin(), clouds.end(), is_whole) &&
+         !std::all_of(poses.begin(), poses.end(), is_whole);
+}
+
+/// Whether the `near` clouds that have a stamp near their number have it by chance.
+bool are_near_by_chance(std::size_t near, const std::vector<DriveCloud>& clouds,
+                        const std::vector<StampedPose>& poses) {
+  if (near == clouds.size()) return false;
+  if (poses.size() == clouds.size()) return differ_in_scale(clouds, poses);
+  return 2 * near < clouds.size() && are_counts_and_times(clouds, poses);
+}
+
 /// Gives each cloud its pose of the trajectory in `file`, if it has one; answers how many have.
 std::size_t give_poses(std::vector<DriveCloud>& clouds, bool have_stamps, const fs::path& file,
                        const DriveFiles& files, std::optional<Pose3> DriveCloud::*pose) {
@@ -83,12 +109,15 @@ std::size_t give_poses(std::vector<DriveCloud>& clouds, bool have_stamps, const 
     cloud.*pose = nearest->pose;
     ++given;
   }
-  if (given > 0) return given;
-  if (trajectory.poses.size() != clouds.size())
-    throw ConfigError(file,
-                      fmt::format("has {} poses for {} clouds in {}, and no stamp is the number of a cloud; "
-                                  "give the trajectory of these clouds",
-                                  trajectory.poses.size(), clouds.size(), files.folder.string()));
+  if (given > 0 && !are_near_by_chance(given, clouds, trajectory.poses)) return given;
+  if (trajectory.poses.size() != clouds.size()) {
+    const char* const why =
+        given == 0 ? "no stamp is the number of a cloud; give the trajectory of these clouds"
+                   : "its stamps are times, where the numbers of the clouds count them; give one pose for "
+                     "each cloud, or stamps that are the clouds' numbers";
+    throw ConfigError(file, fmt::format("has {} poses for {} clouds in {}, and {}", trajectory.poses.size(),
+                                        clouds.size(), files.folder.string(), why));
+  }
   for (std::size_t i = 0; i < clouds.size(); ++i) clouds[i].*pose = trajectory.poses[i].pose;
   return clouds.size();
 }

@@ -77,6 +77,52 @@ TEST_F(DriveClouds, TakePosesInTheirOrderWithoutStamps) {
   EXPECT_EQ(read()[1].odometry->x, 1010.0);
 }
 
+TEST_F(DriveClouds, TakePosesInTheirOrderWhereStampsAreNearByChance) {
+  std::vector<std::string> names;
+  std::vector<double> tenths, milliseconds;
+  for (int i = 0; i < 20; ++i) {
+    names.push_back(std::to_string(i) + ".pcd");
+    tenths.push_back(0.1 * i);
+    milliseconds.push_back(100.0 * i);
+  }
+  write_clouds(names);
+  files_.odometry = write_tum("tenths.tum", tenths);
+  files_.reference = write_tum("milliseconds.tum", milliseconds);
+  const auto clouds = read();
+  for (std::size_t i = 0; i < clouds.size(); ++i) {
+    EXPECT_NEAR(clouds[i].odometry->x, 10.0 * tenths[i], 1e-9);
+    EXPECT_NEAR(clouds[i].reference->x, 10.0 * milliseconds[i], 1e-9);
+  }
+  EXPECT_EQ(warnings_, "");
+}
+
+TEST_F(DriveClouds, ThatAreCountedAreRefusedWithTimesOfAPart) {
+  write_clouds({"0.pcd", "1.pcd", "2.pcd", "3.pcd", "4.pcd"});
+  files_.reference = write_tum("reference.tum", {0.0, 0.1, 0.2, 0.3});
+  EXPECT_EQ(fault(), "reference.tum: error: has 4 poses for 5 clouds in " + folder_.path().string() +
+                         ", and its stamps are times, where the numbers of the clouds count them; give one "
+                         "pose for each cloud, or stamps that are the clouds' numbers");
+}
+
+TEST_F(DriveClouds, MayHaveAReferenceForAPart) {
+  std::vector<std::string> names;
+  std::vector<double> shifted, dense;
+  for (int i = 0; i < 10; ++i) {
+    names.push_back(std::to_string(5.05 + 0.1 * i) + ".pcd");
+    shifted.push_back(5.75 + 0.1 * i);
+  }
+  for (int i = 0; i < 25; ++i) dense.push_back(5.0 + 0.01 * i);
+  write_clouds(names);
+  files_.reference = write_tum("shifted.tum", shifted);
+  auto clouds = read();
+  EXPECT_FALSE(clouds[6].reference);
+  EXPECT_NEAR(clouds[7].reference->x, 57.5, 1e-9) << "as many poses as clouds, of another part";
+  files_.reference = write_tum("dense.tum", dense);
+  clouds = read();
+  EXPECT_NEAR(clouds[1].reference->x, 51.5, 1e-9);
+  EXPECT_FALSE(clouds[3].reference);
+}
+
 TEST_F(DriveClouds, WithOtherPosesAreRefused) {
   write_clouds({"0.pcd", "1.pcd"});
   files_.odometry = write_tum("odometry.tum", {1.0, 2.0, 3.0});
