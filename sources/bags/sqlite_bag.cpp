@@ -2,7 +2,9 @@
 #include <sqlite3.h>
 
 #include <algorithm>
+#include <fstream>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "glocal/error.hpp"
@@ -17,11 +19,18 @@ class SqliteBag final : public RecordingFile {
  public:
   SqliteBag(const std::filesystem::path& file, Reading reading)
       : name_(file.string()), reading_(std::move(reading)) {
-    open();
-    require_table("topics");
-    require_table("messages");
-    read_topics();
-    count_rows();
+    const std::optional<ConfigError> beside = fault_beside();
+    try {
+      open();
+      require_table("topics");
+      require_table("messages");
+      read_topics();
+      count_rows();
+    } catch (const ConfigError&) {
+      if (beside) throw *beside;  // Which is why, perhaps.
+      throw;
+    }
+    if (beside) reading_.note_damage(*beside, "only what is in the file itself is read");
   }
 
   [[nodiscard]] const char* format() const override { return "ROS 2 bag (SQLite)"; }
@@ -68,6 +77,23 @@ class SqliteBag final : public RecordingFile {
     sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
     sqlite3_db_config(database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
     sqlite3_exec(database, "PRAGMA cell_size_check = ON", nullptr, nullptr, nullptr);
+  }
+
+  /// What SQLite keeps in a file of its own until a recorder ends, and leaves there if that is killed. To
+  /// take it in, SQLite would write beside the recording.
+  [[nodiscard]] std::optional<ConfigError> fault_beside() const {
+    const auto fault = [&](const std::string& ending, const char* what,
+                           const char* query) -> std::optional<ConfigError> {
+      const std::string file = std::filesystem::canonical(name_).string() + ending;
+      // One that is done with is empty or begins with zeros.
+      if (std::ifstream(file, std::ios::binary).get() <= 0) return std::nullopt;
+      return ConfigError(name_,
+                         fmt::format("'{}' beside it has {}, as its recorder has not ended properly; put "
+                                     "them together: sqlite3 {} '{}'",
+                                     file, what, name_, query));
+    };
+    if (auto log = fault("-wal", "messages that it has not", "PRAGMA wal_checkpoint(TRUNCATE)")) return log;
+    return fault("-journal", "what was there before an unfinished change", "SELECT count(*) FROM messages");
   }
 
   /// Immutable: SQLite then makes no files beside it, and reads folders that cannot be written to.

@@ -266,6 +266,58 @@ TEST_F(Recordings, OfRos2MayHaveSeveralFiles) {
   EXPECT_EQ(content(moved).size(), 4U);
 }
 
+/// Writes into a bag as a recorder in WAL mode, which is killed before it has moved this into the file.
+void write_beside(const std::filesystem::path& file, const std::string& sql) {
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open(file.c_str(), &database), SQLITE_OK);
+  sqlite3_exec(database, "PRAGMA journal_mode = WAL", nullptr, nullptr, nullptr);
+  sqlite3_db_config(database, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+  EXPECT_EQ(sqlite3_exec(database, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK);
+  sqlite3_close(database);
+}
+
+TEST_F(Recordings, OfRos2WhoseRecorderWasKilledAreTold) {
+  const std::filesystem::path file = folder_ / "file";
+  write_db3(file, 1);
+  write_beside(file, "INSERT INTO messages VALUES(3, 1, 13, 'c')");
+  const auto damage = [](const std::string& name) {
+    return "'" + name +
+           "-wal' beside it has messages that it has not, as its recorder has not ended properly; " +
+           "put them together: sqlite3 " + name + " 'PRAGMA wal_checkpoint(TRUNCATE)'";
+  };
+  Recording recording(file);
+  EXPECT_THAT(content(recording), ElementsAre("11 /a a", "12 /a b"));
+  EXPECT_THAT(recording.warnings(), ElementsAre(file.string() + ": " + damage(file.string()) +
+                                                "; only what is in the file itself is read"));
+  EXPECT_EQ(strict_fault(), "file: error: " + damage("file"));
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open(file.c_str(), &database), SQLITE_OK);
+  sqlite3_exec(database, "PRAGMA wal_checkpoint(TRUNCATE)", nullptr, nullptr, nullptr);
+  sqlite3_close(database);
+  Recording whole(file);
+  EXPECT_THAT(content(whole), ElementsAre("11 /a a", "12 /a b", "13 /a c"));
+  EXPECT_THAT(whole.warnings(), IsEmpty());
+}
+
+TEST_F(Recordings, OfRos2WhoseTablesAreBesideThemAreTold) {
+  write_beside(folder_ / "file", "CREATE TABLE topics(id); CREATE TABLE messages(id)");
+  EXPECT_THAT(config_error(folder_.path(), [&] { Recording recording(folder_ / "file"); }),
+              HasSubstr("file-wal' beside it has messages that it has not"));
+}
+
+TEST_F(Recordings, OfRos2WithAJournalThatIsNotDoneWithAreTold) {
+  write_db3(folder_ / "file", 1);
+  const auto warnings = [&](const std::string& journal) {
+    folder_.write("file-journal", journal);
+    return Recording(folder_ / "file").warnings();
+  };
+  EXPECT_THAT(
+      warnings("\xD9\xD5\x05\xF9 pages"),
+      ElementsAre(HasSubstr("file-journal' beside it has what was there before an unfinished change")));
+  EXPECT_THAT(warnings(""), IsEmpty());
+  EXPECT_THAT(warnings(std::string(28, '\0') + "pages"), IsEmpty());
+}
+
 TEST_F(Recordings, OfRos2AreRefusedWhereTheyAreNone) {
   sqlite3* database = nullptr;
   ASSERT_EQ(sqlite3_open((folder_ / "file").c_str(), &database), SQLITE_OK);
