@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "glocal/error.hpp"
 #include "glocal/extent.hpp"
@@ -18,6 +20,19 @@ VoxelRegion::VoxelRegion(const Points& points, float side, int margin) : side_(s
     const auto [low, high] = extents[axis];
     bricks[axis] = std::ceil((static_cast<double>(high - low) / side + 2.0 * margin + 2.0) / 8.0);
   }
+  // Where neighbouring numbers are farther apart than voxels, a point may come to lie outside of its own
+  // region.
+  float farthest = 0.0F;
+  for (const Extent& extent : extents)
+    farthest = std::max({farthest, std::abs(extent.low), std::abs(extent.high)});
+  const float apart = std::nextafter(farthest, std::numeric_limits<float>::infinity()) - farthest;
+  if (!(apart <= side))
+    throw ConfigError(
+        "",
+        fmt::format(
+            "points lie up to {:.0f} m from the origin, where coordinates of 32 bits are {} m apart, too far "
+            "for voxels of {} m; move the points nearer to the origin",
+            farthest, apart, side));
   if (bricks[0] * bricks[1] * bricks[2] > most_bricks)
     throw ConfigError("",
                       fmt::format("points reach over {:.0f} m x {:.0f} m x {:.0f} m, too far for voxels of "

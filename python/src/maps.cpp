@@ -35,14 +35,12 @@ void bind_points(py::module_& module) {
 }
 
 OccupancyGrid grid_of(const py::object& cells, double resolution, const py::object& map_from_grid) {
-  // As wide as any whole number, so that none becomes another one.
-  const py::array given = py::array::ensure(cells);
-  const auto array = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>::ensure(given);
-  if (!array || array.ndim() != 2 || (given.dtype().kind() != 'i' && given.dtype().kind() != 'u')) {
+  // Whatever type they have, no number becomes another one that is a cell.
+  const auto array = py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(cells);
+  if (!array || array.ndim() != 2) {
     PyErr_Clear();
     throw py::value_error(
-        "the cells of a grid are wanted as an array of rows x columns of whole numbers, row 0 at the lowest "
-        "y");
+        "the cells of a grid are wanted as an array of rows x columns, row 0 at the lowest y");
   }
   if (!(resolution > 0.0)) throw py::value_error("the resolution of a grid must be greater than 0 m");
   OccupancyGrid grid;
@@ -52,11 +50,11 @@ OccupancyGrid grid_of(const py::object& cells, double resolution, const py::obje
   grid.width = static_cast<int>(array.shape(1));
   grid.cells = PackedCells(static_cast<std::size_t>(array.size()));
   for (py::ssize_t i = 0; i < array.size(); ++i) {
-    const std::int64_t cell = array.data()[i];
-    if (cell < 0 || cell > static_cast<std::int64_t>(Cell::occupied))
+    const float cell = array.data()[i];
+    if (cell != 0.0F && cell != 1.0F && cell != 2.0F)
       throw py::value_error(
           fmt::format("a cell of a grid is 0 (unknown), 1 (free) or 2 (occupied), not {}", cell));
-    grid.cells[static_cast<std::size_t>(i)] = static_cast<Cell>(cell);
+    grid.cells[static_cast<std::size_t>(i)] = static_cast<Cell>(static_cast<std::uint8_t>(cell));
   }
   return grid;
 }

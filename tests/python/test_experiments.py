@@ -272,6 +272,28 @@ def test_a_localizer_takes_values_by_path_and_observations_of_numpy(room):
         glocal.Localizer(known, {"matcher.ransam.iteration": 1})
 
 
+def test_another_thread_gets_whole_local_maps(room):
+    """Those of some step, not what a step is just making of one."""
+    experiment = glocal.Experiment.load(room)
+    localizer = experiment.localizer()
+    seen, made = set(), {len(localizer.local_map.points)}
+    is_over = threading.Event()
+
+    def look():
+        while not is_over.is_set():
+            points = np.asarray(localizer.local_map.points)
+            assert np.isfinite(points).all()
+            seen.add(len(points))
+
+    thread = threading.Thread(target=look)
+    thread.start()
+    for sample in experiment.load_samples()[:40]:
+        made.add(localizer.step(sample.observation).local_map_points)
+    is_over.set()
+    thread.join()
+    assert seen and seen <= made
+
+
 def test_what_a_step_holds_outlives_the_localizer(room):
     experiment = glocal.Experiment.load(room)
     localizer = experiment.localizer()
