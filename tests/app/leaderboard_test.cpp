@@ -220,7 +220,7 @@ TEST_F(Leaderboard, ImportedPosesAreJudgedLikeOnesOwn) {
     }
   }
   good(import(csv));
-  EXPECT_THAT(refusal(run("leaderboard import poses.csv --suite tiny --method ../evil")),
+  EXPECT_THAT(refusal(run("leaderboard import " + file("poses.csv") + " --suite tiny --method ../evil")),
               HasSubstr("'../evil' is no name of a method"));
   EXPECT_FALSE(fs::exists("leaderboard/evil.json"));
   const Json theirs = json("leaderboard/tiny@1/theirs.json").at("results");
