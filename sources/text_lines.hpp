@@ -29,10 +29,13 @@ template <class Enum>
   return static_cast<Enum>(at - names.begin());
 }
 
+/// A text without the mark that some programs write before UTF-8.
+[[nodiscard]] std::string_view without_byte_order_mark(std::string_view text);
+
 /// The lines of a text, which must outlive this.
 class TextLines {
  public:
-  explicit TextLines(std::string_view text) : rest_(text) {}
+  explicit TextLines(std::string_view text) : rest_(without_byte_order_mark(text)) {}
 
   /// Goes to the next line; false at the end of the text.
   bool next();

@@ -124,6 +124,7 @@ class Parser {
     if (content.find_first_not_of(" \t\r\n") == std::string_view::npos) {
       throw ConfigError(file_, "is empty; a CARMEN log with laser scans is needed");
     }
+    content = without_byte_order_mark(content);
     ends_in_newline_ = content.ends_with('\n');
     while (!content.empty() && faults_.size() < max_faults) {
       const std::size_t end = content.find('\n');

@@ -130,6 +130,7 @@ class PlyText {
     next_ = 0;
     return lines_.next_with_fields();
   }
+  [[nodiscard]] bool has_more() { return begin_item(); }
   void end_item() const {
     if (next_ != lines_.fields().size())
       refuse(fmt::format("has {} values where {} are needed; put it right or get a fresh copy",
@@ -164,6 +165,8 @@ class PlyBytes {
       : file_(file), data_(data), order_(order) {}
 
   [[nodiscard]] bool begin_item() const { return at_ < data_.size(); }
+  /// Than the end of a line.
+  [[nodiscard]] bool has_more() const { return data_.size() - at_ > 2; }
   void end_item() const {}
   [[nodiscard]] double take(Scalar type) {
     const std::size_t begin = at_;
@@ -230,6 +233,9 @@ Cloud take_vertices(Data data, const PlyHeader& header, const std::string& file,
       cloud.add(point, data.line());
     }
   }
+  if (header.vertices() + 1 == header.elements().size() && data.has_more())
+    data.refuse(
+        fmt::format("the header announces {} points, but more follow; get a fresh copy", vertices.items));
   return cloud.finish();
 }
 

@@ -98,8 +98,12 @@ class PgmReader {
     at_ += row.size() * size;
   }
 
-  static float scaled(int value, int maximum) {
-    return static_cast<float>(std::min(value, maximum)) / static_cast<float>(maximum);
+  [[nodiscard]] float scaled(int value, int maximum) const {
+    if (value > maximum)
+      throw ConfigError(
+          file_,
+          fmt::format("has a pixel of {}, and says that none is above {}; get a fresh copy", value, maximum));
+    return static_cast<float>(value) / static_cast<float>(maximum);
   }
 
   [[noreturn]] void truncated(const char* what) const {

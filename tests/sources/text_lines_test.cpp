@@ -19,6 +19,11 @@ TEST(TextLines, GoFromLineToLine) {
   EXPECT_THAT(lines.fields(), ElementsAre("d"));
   EXPECT_EQ(lines.number(), 4);
   EXPECT_FALSE(lines.next());
+  TextLines marked(
+      "\xEF\xBB\xBF"
+      "1 2");
+  ASSERT_TRUE(marked.next());
+  EXPECT_THAT(marked.fields(), ElementsAre("1", "2"));
 }
 
 TEST(TextLines, ReadNumbers) {

@@ -94,6 +94,13 @@ TEST(CarmenParser, ALogMayEndWithoutNewline) {
   EXPECT_EQ(parse("FLASER 2 1 1 0 0 0 0 0 0 1 h 0").size(), 1U);
 }
 
+TEST(CarmenParser, AByteOrderMarkIsNoPartOfTheFirstLine) {
+  EXPECT_EQ(parse("\xEF\xBB\xBF"
+                  "FLASER 2 1 1 0 0 0 0 0 0 1 h 0\n")
+                .size(),
+            1U);
+}
+
 constexpr const char* again = "; delete the line or get a fresh copy of the log";
 
 TEST(CarmenParser, NamesLineAndRuleOfEveryFault) {

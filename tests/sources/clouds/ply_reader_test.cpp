@@ -103,6 +103,12 @@ TEST(PlyReader, RefusesDataThatIsCutOffOrTooLong) {
             "a.ply: error: ends 12 bytes behind the header, within an item; get a fresh copy");
   EXPECT_EQ(fault(ply("binary_little_endian", vertex) + bytes(1.5, 2.5F, std::int16_t{3})),
             "a.ply: error: the header announces 2 items of 'vertex', but 1 follow; get a fresh copy");
+  EXPECT_EQ(fault(ply("ascii", vertex) + "1 2 3\n4 5 6\n7 8 9\n"),
+            "a.ply:11: error: the header announces 2 points, but more follow; get a fresh copy");
+  const std::string points = bytes(1.5, 2.5F, std::int16_t{3}, -4.5, 5.5F, std::int16_t{-6});
+  EXPECT_EQ(fault(ply("binary_little_endian", vertex) + points + points),
+            "a.ply: error: the header announces 2 points, but more follow; get a fresh copy");
+  expect_two(read(ply("binary_little_endian", vertex) + points + "\n"));
 }
 
 TEST(PlyReader, RefusesListsAndNumbersThatCannotBe) {

@@ -82,6 +82,9 @@ TEST(Pgm, RefusesWhatIsNoWholeImage) {
             "a.image: error: is too large to hold (100000 x 100000 pixels, at most 1000 million); crop it or "
             "lower its resolution");
   EXPECT_EQ(fault_of("P5 99999999999999 1 255\n").substr(0, 40), "a.image: error: is too large to hold (21");
+  for (const std::string& image : {std::string("P2 2 1 100 100 150"), "P5 2 1 100 " + bytes({100, 150})})
+    EXPECT_EQ(fault_of(image),
+              "a.image: error: has a pixel of 150, and says that none is above 100; get a fresh copy");
   const std::string other =
       "a.image: error: is neither a PGM (P2, P5) nor a PNG image; convert it to one of these";
   EXPECT_EQ(fault_of("P6 1 1 255\nabc"), other);
