@@ -15,6 +15,7 @@
 #include "glocal/pose2.hpp"
 #include "glocal/words.hpp"
 #include "sources/bags/recording_summary.hpp"
+#include "sources/bags/scan_placer.hpp"
 
 namespace glocal::app {
 namespace {
@@ -25,10 +26,6 @@ struct BagOptions {
   std::string file;
   bool json = false, strict = false;
 };
-
-double seconds(std::int64_t ns) {
-  return static_cast<double>(ns) * 1e-9;
-}
 
 /// Of more topics, or frames, than anybody reads the rest is counted.
 constexpr std::size_t most_lines = 1000;
@@ -53,8 +50,8 @@ void show_topics(const std::vector<bags::TopicSummary>& topics) {
 void show(const bags::Recording& recording, const bags::RecordingSummary& summary) {
   answer("format      {}\n", recording.format());
   answer("messages    {}\n", summary.messages);
-  answer("time        {:.3f} s, from {:.3f} s on\n", seconds(summary.last_ns - summary.first_ns),
-         seconds(summary.first_ns));
+  answer("time        {:.3f} s, from {:.3f} s on\n", bags::seconds(summary.last_ns - summary.first_ns),
+         bags::seconds(summary.first_ns));
   if (!summary.odometry.empty())
     answer("path        {:.2f} m by {}\n", summary.path_m, shown(summary.odometry));
   show_topics(summary.topics);
@@ -67,8 +64,8 @@ Json json_of(const bags::TopicSummary& topic) {
                {"encoding", topic.encoding},
                {"messages", topic.messages},
                {"rate_hz", topic.rate_hz()},
-               {"first_s", seconds(topic.first_ns)},
-               {"last_s", seconds(topic.last_ns)},
+               {"first_s", bags::seconds(topic.first_ns)},
+               {"last_s", bags::seconds(topic.last_ns)},
                {"frames", topic.frames},
                {"unreadable", topic.unreadable}};
   if (topic.first_scan) {
@@ -84,8 +81,8 @@ Json json_of(const bags::TopicSummary& topic) {
 Json json_of(const bags::Recording& recording, const bags::RecordingSummary& summary) {
   Json json = {{"format", recording.format()},
                {"messages", summary.messages},
-               {"first_s", seconds(summary.first_ns)},
-               {"last_s", seconds(summary.last_ns)},
+               {"first_s", bags::seconds(summary.first_ns)},
+               {"last_s", bags::seconds(summary.last_ns)},
                {"odometry", summary.odometry},
                {"path_m", summary.path_m},
                {"topics", Json::array()},

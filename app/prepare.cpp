@@ -27,6 +27,7 @@
 #include "evaluation/running/experiment_loader.hpp"
 #include "evaluation/running/reference_fit.hpp"
 #include "glocal/error.hpp"
+#include "sources/bags/scan_placer.hpp"
 #include "sources/ros_map/ros_map_writer.hpp"
 
 namespace glocal::app {
@@ -48,10 +49,6 @@ struct PrepareOptions {
   int blocks = 1;
   bool force = false;
 };
-
-std::int64_t nanoseconds(double s) {
-  return std::llround(s * 1e9);
-}
 
 /// Says warnings, and keeps them for the README.
 class Warnings {
@@ -86,8 +83,8 @@ ReferencePoses references_of(const PrepareOptions& options, const DriveTrack& dr
   references.track = options.corrected.empty() ? conversion::own_references(drive.scans)
                                                : conversion::read_corrected(options.corrected, drive);
   references.are_of_sensor = options.poses_of == "sensor";
-  references.shift_ns = nanoseconds(options.shift_s);
-  references.max_gap_ns = nanoseconds(options.max_gap_s);
+  references.shift_ns = bags::nanoseconds(options.shift_s);
+  references.max_gap_ns = bags::nanoseconds(options.max_gap_s);
   if (references.track.size() == 0)
     throw ConfigError(options.log.file,
                       "has no reference poses; give a trajectory with --corrected, or a recording's topic "
@@ -102,17 +99,17 @@ std::vector<TrackedScan> with_references(const PrepareOptions& options, const Dr
     scan.map_from_robot = references.map_from_robot(scan.stamp_ns, scan.robot_from_sensor);
   std::erase_if(scans, [](const TrackedScan& scan) { return !scan.map_from_robot; });
   if (scans.size() > 1) return scans;
-  const auto seconds = [](std::int64_t ns) { return static_cast<double>(ns) * 1e-9; };
   const auto [first, last] = references.track.span();
-  const std::string scans_span = drive.scans.empty() ? "there are no scans"
-                                                     : fmt::format("scans are from {:.3f} to {:.3f} s",
-                                                                   seconds(drive.scans.front().stamp_ns),
-                                                                   seconds(drive.scans.back().stamp_ns));
+  const std::string scans_span =
+      drive.scans.empty()
+          ? "there are no scans"
+          : fmt::format("scans are from {:.3f} to {:.3f} s", bags::seconds(drive.scans.front().stamp_ns),
+                        bags::seconds(drive.scans.back().stamp_ns));
   throw ConfigError(
       options.log.file,
       fmt::format("no two scans have a reference pose: {}, reference poses from {:.3f} to {:.3f} s; if both "
                   "clocks differ, give --shift",
-                  scans_span, seconds(first), seconds(last)));
+                  scans_span, bags::seconds(first), bags::seconds(last)));
 }
 
 CaseFacts facts_of(const PrepareOptions& options, const ReferencePoses& references, const DriveTrack& drive) {
@@ -196,7 +193,7 @@ ScanShift scan_shift_of(const Drive& run, const ReferencePoses& references, cons
   const double epsilon = facts.has_clouds ? facts.fit_within_m : planar_epsilon;
   const auto fit_with = [&](double shift_s) {
     const auto reference_at = [&](double stamp) {
-      return references.map_from_robot(nanoseconds(stamp - shift_s), facts.robot_from_sensor);
+      return references.map_from_robot(bags::nanoseconds(stamp - shift_s), facts.robot_from_sensor);
     };
     return fit_among_scans(run, reference_at, epsilon).value_or(0.0);
   };

@@ -9,6 +9,7 @@
 #include "app/cloud_folder_writer.hpp"
 #include "app/localize_plan.hpp"
 #include "config/scalars.hpp"
+#include "sources/bags/scan_placer.hpp"
 
 namespace glocal::app {
 namespace {
@@ -28,10 +29,6 @@ std::vector<Pose3> references_of(const std::vector<TrackedScan>& scans) {
   return poses;
 }
 
-double seconds(std::int64_t ns) {
-  return static_cast<double>(ns) * 1e-9;
-}
-
 double percent(double share) {
   return 100.0 * share;
 }
@@ -40,7 +37,7 @@ double longest_gap_s(const std::vector<TrackedScan>& scans) {
   std::int64_t longest = 0;
   for (std::size_t i = 1; i < scans.size(); ++i)
     longest = std::max(longest, scans[i].stamp_ns - scans[i - 1].stamp_ns);
-  return seconds(longest);
+  return bags::seconds(longest);
 }
 
 /// Starts as far apart as gives two dozen of them, but no nearer than makes them differ.
@@ -125,10 +122,11 @@ std::vector<std::pair<std::string, std::string>> fact_lines(const CaseFacts& fac
   std::vector<std::pair<std::string, std::string>> lines = {
       {"log", facts.log.filename().string()},
       {"reference", facts.corrected.empty() ? "the log's own" : facts.corrected.filename().string()},
-      {"scans", fmt::format("{} of {} with a reference pose ({:.0f} %), over {:.1f} s; longest gap {:.2f} s",
-                            scans.size(), facts.all_scans,
-                            percent(static_cast<double>(scans.size()) / static_cast<double>(facts.all_scans)),
-                            seconds(scans.back().stamp_ns - scans.front().stamp_ns), longest_gap_s(scans))},
+      {"scans",
+       fmt::format("{} of {} with a reference pose ({:.0f} %), over {:.1f} s; longest gap {:.2f} s",
+                   scans.size(), facts.all_scans,
+                   percent(static_cast<double>(scans.size()) / static_cast<double>(facts.all_scans)),
+                   bags::seconds(scans.back().stamp_ns - scans.front().stamp_ns), longest_gap_s(scans))},
       {"way", fmt::format("{:.1f} m by odometry, {:.1f} m by the reference", way_of(odometry_of(scans)),
                           way_of(references_of(scans)))},
       {"jumps", fmt::format("{} of the reference against odometry", facts.jumps.size())}};
@@ -179,7 +177,7 @@ std::vector<std::string> case_warnings(const CaseFacts& facts) {
     warnings.push_back(fmt::format(
         "the reference jumps against odometry, {} in all; the largest, by {:.2f} m and {:.1f} deg, is "
         "before the scan at {:.3f} s",
-        facts.jumps.size(), largest.distance_m, degrees(largest.angle_rad), seconds(largest.stamp_ns)));
+        facts.jumps.size(), largest.distance_m, degrees(largest.angle_rad), bags::seconds(largest.stamp_ns)));
   }
   const double by_odometry = way_of(odometry_of(scans)), by_reference = way_of(references_of(scans));
   if (by_reference > most_scale * by_odometry || by_odometry > most_scale * by_reference)

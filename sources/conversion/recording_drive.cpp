@@ -11,11 +11,10 @@
 #include "sources/bags/cdr_writer.hpp"
 #include "sources/bags/message_definitions.hpp"
 #include "sources/bags/message_reader.hpp"
+#include "sources/bags/scan_placer.hpp"
 
 namespace glocal::conversion {
 namespace {
-
-constexpr std::int64_t longest_gap_ns = 500'000'000;  ///< Between poses that others are interpolated from.
 
 constexpr const char* odom_frame = "odom";
 constexpr const char* base_frame = "base_link";
@@ -37,7 +36,7 @@ RecordingDriveReader::RecordingDriveReader(const std::filesystem::path& path, co
     with_scans.insert(scan.topic);
     const auto& mount = contents_.mount(scan.frame);
     sensors_.push_back({scan.topic, scan.frame, scan.are_clouds,
-                        mount && mount->is_still() ? mount->pose(0, longest_gap_ns) : std::nullopt});
+                        mount && mount->is_still() ? mount->pose(0, bags::longest_gap_ns) : std::nullopt});
   }
   recording_.rewind(with_scans);
 }
@@ -69,12 +68,12 @@ std::optional<DriveScan> RecordingDriveReader::scan_of(const bags::RecordedMessa
     header = std::get<bags::LaserScan>(scan.rays = bags::read_laser_scan(message)).header;
   }
   scan.stamp_ns = header.stamp_ns;
-  const auto odometry = contents_.odometry_at(header.stamp_ns, longest_gap_ns);
-  const auto mount = contents_.robot_from_sensor(header.frame, header.stamp_ns, longest_gap_ns);
+  const auto odometry = contents_.odometry_at(header.stamp_ns, bags::longest_gap_ns);
+  const auto mount = contents_.robot_from_sensor(header.frame, header.stamp_ns, bags::longest_gap_ns);
   if (!odometry || !mount) return std::nullopt;
   scan.odom_from_robot = *odometry;
   scan.robot_from_sensor = *mount;
-  scan.map_from_robot = contents_.reference_at(header.stamp_ns, longest_gap_ns);
+  scan.map_from_robot = contents_.reference_at(header.stamp_ns, bags::longest_gap_ns);
   return scan;
 }
 
