@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "app/numbers.hpp"
 #include "glocal/error.hpp"
 #include "sources/bags/recording.hpp"
 #include "sources/conversion/cloud_folder.hpp"

@@ -1,5 +1,6 @@
 #include "glocal/pose_cells.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
