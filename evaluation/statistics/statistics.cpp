@@ -2,11 +2,16 @@
 
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numeric>
 
 namespace glocal {
 namespace {
+
+double student_t(double degrees_of_freedom) {
+  return boost::math::quantile(boost::math::students_t(degrees_of_freedom), 0.975);
+}
 
 Proportion wilson_interval(double share, double n) {
   const double z = boost::math::quantile(boost::math::normal(), 0.975);
@@ -43,27 +48,31 @@ Proportion wilson(std::size_t successes, std::size_t trials) {
 }
 
 Proportion wilson_of_clusters(const std::vector<TrialCluster>& clusters) {
-  double successes = 0.0;
-  double trials = 0.0;
-  double filled = 0.0;
+  double successes = 0.0, trials = 0.0, filled = 0.0, squared_trials = 0.0;
   for (const TrialCluster& cluster : clusters) {
+    const auto n = static_cast<double>(cluster.trials);
     successes += static_cast<double>(cluster.successes);
-    trials += static_cast<double>(cluster.trials);
-    filled += cluster.trials > 0 ? 1.0 : 0.0;
+    trials += n;
+    filled += n > 0.0 ? 1.0 : 0.0;
+    squared_trials += n * n;
   }
   if (trials == 0.0) return {};
   const double share = successes / trials;
-  if (share == 0.0 || share == 1.0) return wilson_interval(share, filled);
+  if (share == 0.0 || share == 1.0 || filled == 1.0) return wilson_interval(share, filled);
   double squares = 0.0;
   for (const TrialCluster& cluster : clusters) {
     const double excess =
         static_cast<double>(cluster.successes) - share * static_cast<double>(cluster.trials);
     squares += excess * excess;
   }
-  // share (1 - share) / n is the variance of n independent trials, squares / trials^2 that of these.
-  const double effective =
-      share * (1.0 - share) * trials * trials / std::max(squares, trials * share * (1.0 - share));
-  return wilson_interval(share, effective);
+  // The variance of the share if trials were independent, and as clusters tell it.
+  const double independent = share * (1.0 - share) / (trials - 1.0);
+  const double clustered = filled / (filled - 1.0) * squares / (trials * trials);
+  const double t_ratio = student_t(trials - 1.0) / student_t(filled - 1.0);
+  // As if all trials of each cluster ended alike (Kish 1965).
+  const double fewest = trials * trials / squared_trials;
+  const double effective = trials * independent / clustered * t_ratio * t_ratio;
+  return wilson_interval(share, std::clamp(effective, fewest, trials));
 }
 
 }  // namespace glocal

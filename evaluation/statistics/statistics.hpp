@@ -31,8 +31,9 @@ struct TrialCluster {
   std::size_t trials = 0;
 };
 /// The share of all trials, with Wilson's interval for as many independent trials as tell as much as these
-/// (Korn and Graubard 1998: by the variance between clusters). With one trial in each cluster it is that of
-/// wilson(); where all end the same, each cluster counts as one trial.
+/// (Korn and Graubard 1998: by the variance between clusters, and by Student's t, as few clusters tell that
+/// variance badly). With one trial in each cluster it is that of wilson(). Where all end the same, or there
+/// is one cluster, each counts as one trial.
 [[nodiscard]] Proportion wilson_of_clusters(const std::vector<TrialCluster>& clusters);
 
 }  // namespace glocal

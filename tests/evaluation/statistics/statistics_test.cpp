@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+#include <vector>
+
+#include "glocal/rng.hpp"
+
 namespace glocal::statistics_test {
 namespace {
 
@@ -86,6 +91,46 @@ TEST(WilsonOfClusters, CopiesTellNothingNew) {
 TEST(WilsonOfClusters, EvenClustersTellNoMoreThanAllTheirTrials) {
   // Each has just the mean: less spread than that of independent trials.
   expect_same(wilson_of_clusters({{1, 2}, {1, 2}, {1, 2}}), wilson(3, 6));
+}
+
+TEST(WilsonOfClusters, OneClusterIsOneTrial) {
+  const Proportion p = wilson_of_clusters({{6, 8}, {0, 0}});
+  EXPECT_EQ(p.value, 0.75);
+  EXPECT_NEAR(p.low, 0.11790958799950951, 1e-9);
+  EXPECT_NEAR(p.high, 0.9853650691891092, 1e-9);
+}
+
+// From the published formulas, computed with SciPy 1.10.
+TEST(WilsonOfClusters, FewClustersTellTheirVarianceBadly) {
+  // As 35.12 trials of 64: the variance is 0.718 of independent ones', (t_63 / t_3)^2 is 0.394.
+  const Proportion some = wilson_of_clusters({{10, 16}, {8, 16}, {6, 16}, {9, 16}});
+  EXPECT_NEAR(some.low, 0.35715832580239026, 1e-9);
+  EXPECT_NEAR(some.high, 0.6710107326729265, 1e-9);
+  // As 2.68 trials, but three clusters tell no less than three trials.
+  const Proportion least = wilson_of_clusters({{12, 16}, {8, 16}, {4, 16}});
+  EXPECT_NEAR(least.low, 0.12533447191026326, 1e-9);
+  EXPECT_NEAR(least.high, 0.8746655280897367, 1e-9);
+}
+
+TEST(WilsonOfClusters, HoldsTheShareOfAllPlacesAlsoWithFewOfThem) {
+  // Places at which 40 to 100 % of the trials are right, 70 % of all: without Student's t and with the
+  // variance of these few places as if it were that of all, 79 to 91 % of the intervals hold it.
+  Rng rng(5);
+  for (const std::size_t places : {3U, 5U, 10U}) {
+    int held = 0;
+    for (int i = 0; i < 2000; ++i) {
+      std::vector<TrialCluster> clusters(places, {0, 20});
+      for (TrialCluster& place : clusters) {
+        const double share = rng.uniform(0.4, 1.0);
+        for (std::size_t t = 0; t < place.trials; ++t)
+          place.successes += rng.uniform(0.0, 1.0) < share ? 1 : 0;
+      }
+      const Proportion p = wilson_of_clusters(clusters);
+      held += p.low <= 0.7 && 0.7 <= p.high ? 1 : 0;
+    }
+    EXPECT_GT(held, 0.925 * 2000) << places;
+    EXPECT_LT(held, 0.98 * 2000) << places;
+  }
 }
 
 TEST(WilsonOfClusters, SaysNothingWithoutTrials) {
