@@ -117,6 +117,7 @@ ExperimentSources sources_of(const std::filesystem::path& file, const std::vecto
     sources.tree.reset();
     return sources;
   }
+  drop_replaced(*sources.tree, of_parts);
   apply_overrides(*sources.tree, of_parts, params, faults);
   sources.products = take_products(*sources.tree, params, faults);
   return sources;

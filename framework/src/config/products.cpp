@@ -329,6 +329,24 @@ bool names_parts(std::string_view path) {
   return has(keys, path.substr(0, path.find('.')));
 }
 
+void drop_replaced(YamlNode& experiment, const std::vector<Override>& of_parts) {
+  const auto names = [&](std::string_view key) {
+    return std::any_of(of_parts.begin(), of_parts.end(),
+                       [&](const Override& part) { return part.first == key; });
+  };
+  const auto has_any = [&](const auto& keys) {
+    return std::any_of(keys.begin(), keys.end(),
+                       [&](std::string_view key) { return find_entry(experiment, key) != nullptr; });
+  };
+  const auto drop = [&](const auto& keys) {
+    std::erase_if(experiment.entries, [&](const YamlEntry& entry) { return has(keys, entry.key); });
+  };
+  if (names("methods") && !has_any(std::array{"methods"})) drop(std::array{std::string_view("localizer")});
+  const bool is_of_one_case = !has_any(std::array{"cases", "choose_on", "judge_on", "suite"}) &&
+                              has_any(std::array{"map", "observations"});
+  if (names("cases") && !names("suite") && is_of_one_case) drop(of_cases);
+}
+
 Products take_products(YamlNode& experiment, AnyParams& params, std::vector<Fault>& faults) {
   Products products;
   if (experiment.kind != NodeKind::map) return products;

@@ -42,6 +42,10 @@ struct Products {
 /// Whether a path leads to one of these keys.
 [[nodiscard]] bool names_parts(std::string_view path);
 
+/// An experiment that has a localizer, or a map and a drive, of its own is of one method or case: those that
+/// overrides name take its place.
+void drop_replaced(YamlNode& experiment, const std::vector<Override>& of_parts);
+
 /// Takes these keys out of the tree of an experiment file, and reads the files that they name. A method is a
 /// map with `localizer` and perhaps `plugins`; a case has `map`, `observations`, `trials` and perhaps
 /// `evaluation`. What the experiment says itself, a part may leave out. Either may extend another one, of

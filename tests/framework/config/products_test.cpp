@@ -27,7 +27,6 @@ class ProductsTest : public testing::Test {
  protected:
   ProductsTest() {
     register_toys(catalog_);
-    for (const char* part : {"configs/methods", "configs/cases"}) fs::create_directories(folder_ / part);
     folder_.write("map.txt", "a map");
     folder_.write("configs/cases/map.txt", "a map");
     folder_.write("configs/methods/fast.yaml", std::string("# Few draws. And more.\n") + fast_method);
@@ -109,6 +108,26 @@ TEST_F(ProductsTest, TheExperimentsOwnValuesAndTheCommandLinesComeLast) {
     EXPECT_EQ(variant.experiment.trials.every_m, 4.0) << variant.name;
     EXPECT_EQ(iterations(variant), 11) << variant.name;
   }
+}
+
+TEST_F(ProductsTest, ThoseOfTheCommandLineTakeThePlaceOfTheExperimentsOwn) {
+  const std::string own =
+      "localizer: {matcher: {ransam: {iterations: 3}}, contact_epsilon: 0.25}\n"
+      "map: {toy_map: {path: none.txt}}\nobservations: toy_drive\ntrials: {every_m: 4, max_steps: 2}\n";
+  const auto all = read(own, {{"methods", "[fast]"}, {"cases", "[room]"}});
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_EQ(iterations(all[0]), 7);
+  EXPECT_EQ(all[0].experiment.localizer.contact_epsilon, std::nullopt);
+  EXPECT_EQ(all[0].experiment.trials.every_m, 6.0);
+  EXPECT_EQ(all[0].experiment.trials.max_steps, Experiment().trials.max_steps);
+  // Trials alone are no case, and a localizer beside methods is none of its own.
+  const std::string changes =
+      "methods: [fast]\ncases: [room]\nlocalizer: {contact_epsilon: 0.25}\ntrials: {every_m: 4}\n";
+  const auto others = read(changes, {{"methods", "[slow]"}, {"cases", "[hall]"}});
+  ASSERT_EQ(others.size(), 1U);
+  EXPECT_EQ(iterations(others[0]), 900);
+  EXPECT_EQ(others[0].experiment.localizer.contact_epsilon, 0.25);
+  EXPECT_EQ(others[0].experiment.trials.every_m, 4.0);
 }
 
 TEST_F(ProductsTest, VariantsVaryParametersOfEachMethod) {

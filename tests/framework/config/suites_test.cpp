@@ -23,8 +23,6 @@ class SuitesTest : public testing::Test {
  protected:
   SuitesTest() {
     register_toys(catalog_);
-    for (const char* part : {"configs/methods", "configs/cases", "configs/suites"})
-      fs::create_directories(folder_ / part);
     folder_.write("configs/cases/map.txt", "a map");
     folder_.write("configs/methods/fast.yaml", "localizer: {matcher: {ransam: {iterations: 7}}}\n");
     folder_.write("configs/cases/room.yaml",
