@@ -105,7 +105,7 @@ void to_folder(const ConvertOptions& options, const Context& context) {
     throw ConfigError(options.in.file, "has planar scans, which are no clouds in space; name --out *.mcap");
   ReadingBar bar;
   const auto reader = options.in.open(warn, bar.call());
-  OutputFolder folder(options.out, options.force);
+  OutputFolder folder(options.out, options.force, options.in.inputs());
   CloudFolderWriter writer(folder, options.in.file);
   const DriveCounts counts = conversion::pass_on(*reader, writer, options.in.file, warn);
   FileHashes hashes;

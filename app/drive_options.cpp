@@ -108,13 +108,11 @@ std::unique_ptr<DriveReader> DriveOptions::open(const Warn& warn, const TellProg
 
 std::set<fs::path> DriveOptions::inputs() const {
   switch (kind_of_log(file)) {
-    case LogKind::recording: {
-      const bags::Recording recording = open_recording();
-      return {recording.files().begin(), recording.files().end()};
-    }
+    case LogKind::recording:
+      return open_recording().inputs();
     case LogKind::clouds: {
       const clouds::DriveFiles files = cloud_files(*this);
-      std::set<fs::path> inputs{files.odometry, files.reference};
+      std::set<fs::path> inputs{files.folder, files.odometry, files.reference};
       inputs.erase(fs::path());
       return inputs;
     }

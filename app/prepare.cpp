@@ -229,7 +229,11 @@ void prepare(const PrepareOptions& options, Context& context) {
   const ReferencePoses references = references_of(options, drive);
   CaseFacts facts = facts_of(options, references, drive);
 
-  OutputFolder folder(options.out, options.force);
+  std::set<fs::path> inputs = options.log.inputs();
+  for (const std::string& file : {options.corrected, options.relations}) {
+    if (!file.empty()) inputs.insert(file);
+  }
+  OutputFolder folder(options.out, options.force, inputs);
   write_drive(options, references, facts.has_clouds, folder, bar.call());
   folder.append("experiment.yaml", case_experiment(facts, context.catalog));
   const LoadedExperiment loaded = load_case(folder, context.catalog, warnings);
@@ -243,10 +247,6 @@ void prepare(const PrepareOptions& options, Context& context) {
 
   for (const std::string& text : case_warnings(facts)) warnings.add(text);
   folder.append("README.md", case_readme(facts, warnings.texts()));
-  std::set<fs::path> inputs = options.log.inputs();
-  for (const std::string& file : {options.corrected, options.relations}) {
-    if (!file.empty()) inputs.insert(file);
-  }
   FileHashes hashes;
   folder.append("provenance.json", provenance(context.catalog, 1, inputs, hashes).dump(2) + "\n");
   folder.commit();

@@ -154,7 +154,7 @@ void simulate(const SimulateOptions& options, Context& context) {
   std::set<std::filesystem::path> inputs;
   const SimulatedFiles files = is_site ? simulated_site(options.site, seed_of_site(options), context.catalog)
                                        : simulated_experiment(options.experiment, context, inputs);
-  OutputFolder folder(options.out, options.force);
+  OutputFolder folder(options.out, options.force, inputs);
   folder.append(files.drive.file_name, files.drive.content);
   ros_map::write_trinary_pgm(files.grid, [&](std::string_view piece) { folder.append("map.pgm", piece); });
   folder.append("map.yaml", ros_map::ros_map_yaml(files.grid, "map.pgm", files.origin));

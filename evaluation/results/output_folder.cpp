@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -49,6 +50,18 @@ void check_removable(const fs::path& path) {
   for (fs::recursive_directory_iterator entry(path), end; entry != end; ++entry) {
     if (!entry->is_directory() || entry->is_symlink()) continue;
     check(entry->path());
+  }
+}
+
+/// What the new results follow from must not go with the earlier ones.
+void check_spares(const fs::path& folder, const std::set<fs::path>& inputs) {
+  for (const fs::path& input : inputs) {
+    const fs::path file = without_links(input);
+    if (file == folder / "effective.yaml") continue;  // A run leaves the same one.
+    if (std::ranges::mismatch(folder, file).in1 == folder.end())
+      refuse_output(folder, fmt::format("--force would remove {}, which is read; choose another folder with "
+                                        "--out, or move that file",
+                                        file.string()));
   }
 }
 
@@ -100,21 +113,23 @@ void OutputFolder::tidy(const fs::path& path) {
   fs::remove_all(places.replaced, ignored);
 }
 
-OutputFolder::OutputFolder(const fs::path& path, bool replace, const TakesUp& takes_up)
+OutputFolder::OutputFolder(const fs::path& path, bool replace, const std::set<fs::path>& inputs,
+                           const TakesUp& takes_up)
     : places_(path), replace_(replace) {
   make_folder(places_.path.parent_path(), {});
   lock_.emplace(places_.lock, places_.path);
   restore_replaced();
-  take_up_or_begin(takes_up);
+  take_up_or_begin(inputs, takes_up);
 }
 
 /// What is unfinished is later than results that are not complete. What an earlier process has left may not
 /// be on the disk yet.
-void OutputFolder::take_up_or_begin(const TakesUp& takes_up) {
+void OutputFolder::take_up_or_begin(const std::set<fs::path>& inputs, const TakesUp& takes_up) {
   std::error_code error;
   keeps_ = fs::exists(places_.unfinished, error) && takes_up(places_.unfinished, false);
   const bool goes_on = !keeps_ && fs::is_directory(places_.path, error) && takes_up(places_.path, true);
   if (!goes_on) check_free(places_.path, places_.path, replace_);
+  if (!goes_on && replace_) check_spares(places_.path, inputs);
   if (!keeps_) fs::remove_all(places_.unfinished, error);
   if (goes_on) fs::rename(places_.path, places_.unfinished, error);
   check(error);

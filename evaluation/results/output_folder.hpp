@@ -34,10 +34,11 @@ class OutputFolder {
   static void tidy(const std::filesystem::path& path);
 
   /// Throws ConfigError if `path` exists and is not an empty folder, unless `replace` is given and it holds
-  /// results of an earlier run, and if another process writes there. `takes_up` is asked about an unfinished
-  /// folder and about results at `path`; what it declines of the former is removed.
+  /// results of an earlier run but none of the files `inputs`, and if another process writes there.
+  /// `takes_up` is asked about an unfinished folder and about results at `path`; what it declines of the
+  /// former is removed.
   OutputFolder(
-      const std::filesystem::path& path, bool replace,
+      const std::filesystem::path& path, bool replace, const std::set<std::filesystem::path>& inputs = {},
       const TakesUp& takes_up = [](const std::filesystem::path&, bool) { return false; });
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
@@ -66,7 +67,7 @@ class OutputFolder {
   };
 
   void restore_replaced() const;
-  void take_up_or_begin(const TakesUp& takes_up);
+  void take_up_or_begin(const std::set<std::filesystem::path>& inputs, const TakesUp& takes_up);
   void make_folder(const std::filesystem::path& folder, const std::filesystem::path& name);
   void check(const std::error_code& error, const std::filesystem::path& name = {}) const;
   void remove_replaced() const;

@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <link.h>
 #include <openssl/evp.h>
 #include <unistd.h>
@@ -83,6 +84,16 @@ class Sha256 {
   std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_{EVP_MD_CTX_new(), &EVP_MD_CTX_free};
 };
 
+/// A line for each file that is not hidden.
+std::string names_in(const std::filesystem::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (entry.is_regular_file() && !name.starts_with('.')) names.insert(name);
+  }
+  return fmt::format("{}\n", fmt::join(names, "\n"));
+}
+
 /// Whether an effective.yaml has other values. Its comments, which tell what follows from the map, are none.
 bool has_other_values(const std::string& there, const std::string& here) {
   try {
@@ -96,7 +107,10 @@ bool has_other_values(const std::string& there, const std::string& here) {
 
 const std::string& FileHashes::of(const std::filesystem::path& file) {
   auto known = known_.find(file);
-  if (known == known_.end()) known = known_.emplace(file, sha256_of_file(file)).first;
+  if (known == known_.end()) {
+    const bool is_folder = std::filesystem::is_directory(file);
+    known = known_.emplace(file, is_folder ? sha256_of_text(names_in(file)) : sha256_of_file(file)).first;
+  }
   return known->second;
 }
 

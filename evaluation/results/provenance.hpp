@@ -24,10 +24,10 @@ namespace glocal {
 
 [[nodiscard]] std::string host_name();
 
-/// SHA-256 of files, each read once.
+/// SHA-256 of files, each read once, and of folders: of the names of the files in it that are not hidden.
 class FileHashes {
  public:
-  /// Throws RunError if the file cannot be read.
+  /// Throws RunError if it cannot be read.
   [[nodiscard]] const std::string& of(const std::filesystem::path& file);
 
  private:

@@ -179,7 +179,7 @@ void ExperimentRunner::run_one(Variant& variant) {
     declined = why_other(earlier, variant);
     return !declined;
   };
-  OutputFolder folder(folder_of(variant.name), options_.force, takes_up);
+  OutputFolder folder(folder_of(variant.name), options_.force, run.inputs(), takes_up);
   if (declined)
     callbacks_.warn(
         fmt::format("{}: starts afresh: what an earlier run has left unfinished is dropped, as {}",

@@ -14,7 +14,10 @@ std::map<std::string, std::string> input_hashes(const Suite& suite,
                                                 FileHashes& hashes) {
   constexpr std::size_t many = 3;
   std::map<std::filesystem::path, std::vector<std::filesystem::path>> folders;
-  for (const std::filesystem::path& input : inputs) folders[input.parent_path()].push_back(input);
+  for (const std::filesystem::path& input : inputs) {
+    // What is read of a folder is among the files.
+    if (!std::filesystem::is_directory(input)) folders[input.parent_path()].push_back(input);
+  }
   std::map<std::string, std::string> named;
   for (const auto& [folder, files] : folders) {
     std::string all;

@@ -113,7 +113,7 @@ BagDrive::BagDrive(const Params& params, const SourceSetup& setup)
   recording_.tell_progress(setup.progress);
   const std::string file = params.path.resolved.string();
   contents_ = bags::read_contents(recording_, topics_of(params), file, warn_);
-  for (const auto& part : recording_.files()) setup.note_input(part);
+  for (const auto& input : recording_.inputs()) setup.note_input(input);
   const bool has_clouds = std::any_of(contents_.scans.begin(), contents_.scans.end(),
                                       [](const bags::ScanTopic& scan) { return scan.are_clouds; });
   if (is_planar_ && has_clouds && params.heights.empty()) {

@@ -76,7 +76,7 @@ void describe(ParamVisitor& v, BagMap::Params& p) {
 MapData BagMap::load() {
   bags::Recording recording(params_.path.resolved, bags::damage_if(params_.strict));
   recording.tell_progress(setup_.progress);
-  for (const auto& file : recording.files()) setup_.note_input(file);
+  for (const auto& input : recording.inputs()) setup_.note_input(input);
   const std::string topic = topic_of(recording, params_);
   const bags::GridMessage grid = last_grid(recording, topic, params_);
   for (const std::string& warning : recording.warnings()) setup_.warn(warning);

@@ -68,6 +68,7 @@ Recording::Recording(const fs::path& path, Damage damage)
     *warnings_ = folder.warnings;
     announced_ = folder.messages;
     metadata_of_ = path.string();
+    inputs_.insert(path);
     for (const fs::path& file : folder.files) open(file, damage);
   }
   rewind();
@@ -94,7 +95,7 @@ void Recording::open(const fs::path& file, Damage damage) {
     if (known == connections_->end()) connections_->push_back(connection);
   }
   parts_.push_back(std::move(part));
-  files_.push_back(file);
+  inputs_.insert(file);
 }
 
 void Recording::rewind(const std::optional<std::set<std::string>>& topics) {

@@ -70,8 +70,8 @@ class Recording {
 
   /// "ROS 1 bag 2.0", "ROS 2 bag (SQLite)" or "MCAP".
   [[nodiscard]] const std::string& format() const { return format_; }
-  /// The files that are read as one recording.
-  [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
+  /// The files that are read as one recording, and the folder if one was named.
+  [[nodiscard]] const std::set<std::filesystem::path>& inputs() const { return inputs_; }
   /// All that the recording names; several may have the same topic.
   [[nodiscard]] const std::vector<Connection>& connections() const { return *connections_; }
   /// Goes to the start; from there on only messages of these topics are read, or of all.
@@ -94,7 +94,7 @@ class Recording {
   [[nodiscard]] double share_read() const;
 
   std::string format_;
-  std::vector<std::filesystem::path> files_;
+  std::set<std::filesystem::path> inputs_;
   // Others point to these, also after a move.
   std::unique_ptr<std::vector<Connection>> connections_;
   std::unique_ptr<std::vector<std::string>> warnings_;

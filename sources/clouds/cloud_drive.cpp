@@ -75,8 +75,8 @@ void describe(ParamVisitor& v, CloudDrive::Params& p) {
 CloudDrive::CloudDrive(const Params& params, const SourceSetup& setup)
     : params_(params), warn_(setup.warn), robot_from_sensor_(robot_from_sensor(params.sensor)) {
   const DriveFiles files{params.folder.resolved, params.odometry.resolved, params.reference.resolved};
-  for (const auto& trajectory : {files.odometry, files.reference}) {
-    if (!trajectory.empty()) setup.note_input(trajectory);
+  for (const auto& input : {files.folder, files.odometry, files.reference}) {
+    if (!input.empty()) setup.note_input(input);
   }
   const Pose3 sensor_from_robot = params.poses_of == "sensor" ? inverse(robot_from_sensor_) : Pose3{};
   std::vector<DriveCloud> clouds = drive_clouds(files, warn_);

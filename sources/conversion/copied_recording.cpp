@@ -30,7 +30,7 @@ class RecordingCopier {
     recording_.rewind();
     while (const auto message = recording_.next()) take(*message);
     if (copied_.messages == 0)
-      throw ConfigError(recording_.files().front(),
+      throw ConfigError(*recording_.inputs().begin(),
                         "has no message that can be written as MCAP; glocal bag info shows what it has");
     writer_.finish();
     for (const auto& [topic, lost] : lost_)

@@ -43,7 +43,7 @@ void describe(ParamVisitor& v, RecordingLink::Params& p) {
 
 RecordingLink::RecordingLink(const Params& params, const SourceSetup& setup)
     : is_live_(params.in_real_time), recording_(params.path.resolved) {
-  for (const auto& file : recording_.files()) setup.note_input(file);
+  for (const auto& input : recording_.inputs()) setup.note_input(input);
   recording_.rewind();
 }
 

@@ -19,8 +19,6 @@ using testing::Not;
 class Leaderboard : public Room {
  protected:
   Leaderboard() {
-    for (const char* part : {"configs/methods", "configs/cases", "configs/suites"})
-      fs::create_directories(folder_.path() / part);
     ::setenv("GLOCAL_CONFIGS", file("configs").c_str(), 1);
     write_method(20000);
     folder_.write("configs/cases/small_room.yaml",
@@ -161,6 +159,8 @@ TEST_F(Leaderboard, WritesNoPageOfWhatCannotBeRead) {
   EXPECT_THAT(refused(), HasSubstr("leaderboard: error: has no results yet; glocal leaderboard add "));
   run_and_add();
   EXPECT_THAT(refused(" --method other"), HasSubstr("has no results"));
+  EXPECT_THAT(refusal(run("leaderboard --board " + file("nowhere"))),
+              HasSubstr("nowhere: error: has no results yet"));
   EXPECT_THAT(refused(" --markdown"), HasSubstr("--markdown"));
   folder_.write("leaderboard/history.jsonl", "{}\n");
   EXPECT_THAT(refused(), HasSubstr("history.jsonl:1: error: is no line of a leaderboard's history"));

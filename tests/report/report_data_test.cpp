@@ -25,29 +25,26 @@ class ReportDataTest : public testing::Test {
  protected:
   ReportDataTest() { write_run("a"); }
 
-  void write(const std::string& name, const std::string& content) const {
-    fs::create_directories((folder_ / name).parent_path());
-    folder_.write(name, content);
-  }
-
   void write_run(const std::string& name, double first_start_m = 0.0) const {
     write_summary(name, true, 2, 4);
-    write(name + "/provenance.json",
-          R"({"host": "h", "cpu": "c", "threads": 2, "inputs_sha256": {"/lab.log": "abc"}})");
-    write(name + "/effective.yaml",
-          "seed: 7\nmap:\n  carmen_log:\n    path: \"/lab.log\"\noutput:\n  steps: true\n  maps: all\n");
-    write(name + "/trials.jsonl", trial(0, 3, first_start_m) + trial(1, 1, first_start_m + 5.0));
-    write(name + "/steps.jsonl", step(0, 0) + step(0, 1) + step(0, 2) + step(1, 0));
-    write(name + "/maps/global.pcd", pcd(points_at({{0, 0}, {0.05F, 0}, {0.1F, 0}})));
+    folder_.write(name + "/provenance.json",
+                  R"({"host": "h", "cpu": "c", "threads": 2, "inputs_sha256": {"/lab.log": "abc"}})");
+    folder_.write(
+        name + "/effective.yaml",
+        "seed: 7\nmap:\n  carmen_log:\n    path: \"/lab.log\"\noutput:\n  steps: true\n  maps: all\n");
+    folder_.write(name + "/trials.jsonl", trial(0, 3, first_start_m) + trial(1, 1, first_start_m + 5.0));
+    folder_.write(name + "/steps.jsonl", step(0, 0) + step(0, 1) + step(0, 2) + step(1, 0));
+    folder_.write(name + "/maps/global.pcd", pcd(points_at({{0, 0}, {0.05F, 0}, {0.1F, 0}})));
     for (int i = 0; i < 3; ++i) {
       const auto x = static_cast<float>(i);
-      write(fmt::format("{}/maps/trial_0000/step_000{}.pcd", name, i), pcd(points_at({{9, 9}, {x, 1}})));
-      write(fmt::format("{}/maps/trial_0000/scan_000{}.pcd", name, i), pcd(points_at({{x, -1}})));
+      folder_.write(fmt::format("{}/maps/trial_0000/step_000{}.pcd", name, i),
+                    pcd(points_at({{9, 9}, {x, 1}})));
+      folder_.write(fmt::format("{}/maps/trial_0000/scan_000{}.pcd", name, i), pcd(points_at({{x, -1}})));
     }
   }
 
   void write_summary(const std::string& name, bool complete, int trials, int steps) const {
-    write(
+    folder_.write(
         name + "/summary.json",
         fmt::format(
             R"({{"name": "lab", "seed": 7, "complete": {}, "trials": {{"count": {}, "right": 1, "wrong": 0, "undecided": 0}}, "steps": {}}})",
@@ -120,7 +117,7 @@ TEST_F(ReportDataTest, IsAllThatTheRunLeft) {
 }
 
 TEST_F(ReportDataTest, HasNoMoreDigitsOfTrialsThanAreRead) {
-  write("a/trials.jsonl", trial(0, 3, 1.0 / 3.0) + trial(1, 1, 5.0));
+  folder_.write("a/trials.jsonl", trial(0, 3, 1.0 / 3.0) + trial(1, 1, 5.0));
   const Json start = data({"a"})["runs"][0]["trials"][0]["start"];
   EXPECT_EQ(start["distance_m"].dump(), "0.3333333");
 }
@@ -132,8 +129,8 @@ TEST_F(ReportDataTest, HasTimesOfStepsInTheirOrderButNoMoreThanAreDrawn) {
     record.result.stage_ms = {.local_map = static_cast<double>((7 * i) % 1000)};
     steps += step_line(0, record);
   }
-  write("a/trials.jsonl", trial(0, 1000, 0.0));
-  write("a/steps.jsonl", steps);
+  folder_.write("a/trials.jsonl", trial(0, 1000, 0.0));
+  folder_.write("a/steps.jsonl", steps);
   write_summary("a", true, 1, 1000);
   fs::remove_all(folder_ / "a/maps");
   const Json times = data({"a"})["runs"][0]["step_ms"];
@@ -145,7 +142,7 @@ TEST_F(ReportDataTest, HasTimesOfStepsInTheirOrderButNoMoreThanAreDrawn) {
 }
 
 TEST_F(ReportDataTest, DoesWithoutWhatWasNotRecorded) {
-  write("a/effective.yaml", "output: {steps: false, maps: all}\n");
+  folder_.write("a/effective.yaml", "output: {steps: false, maps: all}\n");
   fs::remove(folder_ / "a/steps.jsonl");
   for (int i = 0; i < 3; ++i) fs::remove(folder_ / fmt::format("a/maps/trial_0000/scan_000{}.pcd", i));
   Json trial = data({"a"})["runs"][0]["trials"][0];
@@ -160,16 +157,16 @@ TEST_F(ReportDataTest, DoesWithoutWhatWasNotRecorded) {
 
 TEST_F(ReportDataTest, TakesARunThatWasInterrupted) {
   write_summary("a", false, 1, 1);
-  write("a/trials.jsonl", trial(1, 1, 5.0));
-  write("a/steps.jsonl", step(1, 0));
+  folder_.write("a/trials.jsonl", trial(1, 1, 5.0));
+  folder_.write("a/steps.jsonl", step(1, 0));
   const Json trials = data({"a"})["runs"][0]["trials"];
   ASSERT_EQ(trials.size(), 1U);
   EXPECT_EQ(trials[0]["trial"], 1);
 }
 
 TEST_F(ReportDataTest, TakesATrialThatFailedInItsFirstStep) {
-  write("a/trials.jsonl", trial(0, 3, 0.0) + trial(1, 0, 5.0));
-  write("a/steps.jsonl", step(0, 0) + step(0, 1) + step(0, 2));
+  folder_.write("a/trials.jsonl", trial(0, 3, 0.0) + trial(1, 0, 5.0));
+  folder_.write("a/steps.jsonl", step(0, 0) + step(0, 1) + step(0, 2));
   write_summary("a", true, 2, 3);
   EXPECT_EQ(data({"a"})["runs"][0]["trials"][1]["columns"]["step"], Json::array());
 }
@@ -177,7 +174,7 @@ TEST_F(ReportDataTest, TakesATrialThatFailedInItsFirstStep) {
 TEST_F(ReportDataTest, HasEachMapOnce) {
   write_run("b");
   write_run("c");
-  write("c/maps/global.pcd", pcd(points_at({{0, 0}, {0.06F, 0}})));
+  folder_.write("c/maps/global.pcd", pcd(points_at({{0, 0}, {0.06F, 0}})));
   const Json json = data({"a", "b", "c"});
   ASSERT_EQ(json["maps"].size(), 2U);
   EXPECT_EQ(json["runs"][1]["map"], 0);
@@ -188,22 +185,22 @@ TEST_F(ReportDataTest, HasTheCellsOfAMapThatHasSome) {
   const Json grid = Json::parse(R"({"resolution": 0.05, "origin": {"x": 0, "y": 0, "theta": 0},
     "width": 2, "height": 1, "cells": "1f1o"})");
   write_run("b");
-  write("b/maps/global_grid.json", grid.dump());
+  folder_.write("b/maps/global_grid.json", grid.dump());
   const Json json = data({"a", "b"});
   ASSERT_EQ(json["maps"].size(), 2U);
   EXPECT_FALSE(json["maps"][0].contains("grid"));
   EXPECT_EQ(json["maps"][1]["grid"], grid);
-  write("a/maps/global_grid.json", "{}");
+  folder_.write("a/maps/global_grid.json", "{}");
   EXPECT_THAT(faults(), ElementsAre(HasSubstr("a/maps/global_grid.json: error: is no grid")));
 }
 
 TEST_F(ReportDataTest, HasWhatATrialHasFoundChanged) {
   const Json changes =
       Json::parse(R"({"new": [{"x": 1.5, "y": 2.5, "width": 0.4, "height": 0.2, "views": 4}], "gone": []})");
-  write("a/maps/trial_0000/changes.json", changes.dump());
+  folder_.write("a/maps/trial_0000/changes.json", changes.dump());
   EXPECT_EQ(data({"a"})["runs"][0]["trials"][0]["changes"], changes);
   for (const char* broken : {"{}", "[]", R"({"new": [{"x": 1}], "gone": []})", R"({"new": 1, "gone": []})"}) {
-    write("a/maps/trial_0000/changes.json", broken);
+    folder_.write("a/maps/trial_0000/changes.json", broken);
     EXPECT_THAT(faults(), ElementsAre(HasSubstr("changes.json: error: has no changes"))) << broken;
   }
 }
@@ -227,7 +224,7 @@ TEST_F(ReportDataTest, HasWhatASweepHasTaught) {
     Json provenance = {{"host", "h"}, {"cpu", "c"}, {"threads", 2}, {"inputs_sha256", Json::object()}};
     provenance["variant"] = {
         {"setting", folder}, {"seed", 7}, {"case", ""}, {"role", "none"}, {"values", {{"x.size", size}}}};
-    write(std::string(folder) + "/provenance.json", provenance.dump());
+    folder_.write(std::string(folder) + "/provenance.json", provenance.dump());
   };
   tell("a", "1");
   tell("b", "2");
@@ -254,11 +251,11 @@ TEST_F(ReportDataTest, SharesItsLimitsAmongAllTrialsWithMaps) {
 }
 
 TEST_F(ReportDataTest, FindsEveryFaultOfAFolder) {
-  write("a/summary.json", "{");
-  write("a/provenance.json", "[]");
-  write("a/effective.yaml", "a: [\n");
-  write("a/steps.jsonl", step(0, 0) + step(0, 2));
-  write("a/maps/global.pcd", "points");
+  folder_.write("a/summary.json", "{");
+  folder_.write("a/provenance.json", "[]");
+  folder_.write("a/effective.yaml", "a: [\n");
+  folder_.write("a/steps.jsonl", step(0, 0) + step(0, 2));
+  folder_.write("a/maps/global.pcd", "points");
   fs::remove(folder_ / "a/maps/trial_0000/scan_0001.pcd");
   EXPECT_THAT(
       faults(),
@@ -270,14 +267,14 @@ TEST_F(ReportDataTest, FindsEveryFaultOfAFolder) {
 }
 
 TEST_F(ReportDataTest, FindsWhatWasCutOff) {
-  write("a/steps.jsonl", step(0, 0) + step(0, 1) + step(1, 0));
+  folder_.write("a/steps.jsonl", step(0, 0) + step(0, 1) + step(1, 0));
   EXPECT_THAT(
       faults(),
       ElementsAre(HasSubstr("a/steps.jsonl:3: error: ends here with 2 of the 3 steps of trial 0; run")));
-  write("a/steps.jsonl", step(0, 0) + step(0, 1).substr(0, 200));
+  folder_.write("a/steps.jsonl", step(0, 0) + step(0, 1).substr(0, 200));
   EXPECT_THAT(faults(), testing::Contains(HasSubstr("a/steps.jsonl:2: error: is no line of results")));
   write_run("a");
-  write("a/trials.jsonl", trial(0, 3, 0.0));
+  folder_.write("a/trials.jsonl", trial(0, 3, 0.0));
   EXPECT_THAT(faults(),
               ElementsAre(HasSubstr(
                   "a/trials.jsonl:1: error: ends here with 1 trials, where summary.json counts 2")));
@@ -290,7 +287,7 @@ TEST_F(ReportDataTest, FindsWhatWasCutOff) {
 }
 
 TEST_F(ReportDataTest, RefusesATrialThatIsThereTwice) {
-  write("a/trials.jsonl", trial(0, 3, 0.0) + trial(0, 1, 5.0));
+  folder_.write("a/trials.jsonl", trial(0, 3, 0.0) + trial(0, 1, 5.0));
   EXPECT_THAT(faults(),
               testing::Contains(AllOf(HasSubstr("a/trials.jsonl:2"), HasSubstr("trial 0 is there already"))));
 }

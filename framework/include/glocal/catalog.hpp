@@ -30,7 +30,8 @@ struct SourceSetup {
   std::uint64_t seed = 0;          ///< The experiment's seed, for simulated noise.
   Motion motion = Motion::planar;  ///< What of the robot's pose is looked for; poses keep to it.
   Warn warn = [](const std::string&) {};
-  /// To be called with every file read, for the record of a run's inputs.
+  /// To be called with every file read, and every folder of which all files are, for the record of a run's
+  /// inputs.
   std::function<void(const std::filesystem::path&)> note_input = [](const std::filesystem::path&) {};
   /// To be called now and then by sources that take long to read.
   TellProgress progress = [](double) {};

@@ -114,6 +114,25 @@ TEST(OutputFolder, ReplacesOnlyEarlierResults) {
   EXPECT_EQ(entries(parent), 2);
 }
 
+TEST(OutputFolder, DoesNotReplaceWhatIsRead) {
+  const TemporaryFolder home;
+  const fs::path results = home / "results";
+  home.write("results/provenance.json", "{}");
+  const auto fault = [&](const fs::path& input) {
+    return config_error(home.path(), [&] { const OutputFolder again(results, true, {input}); });
+  };
+  fs::create_directory_symlink(results, home / "link");
+  for (const fs::path& input : {results / "maps/global.pgm", home / "link/maps/global.pgm"}) {
+    EXPECT_EQ(fault(home.write(fs::relative(input, home.path()), "P5")),
+              "results: error: output: --force would remove results/maps/global.pgm, which is read; choose "
+              "another folder with --out, or move that file");
+  }
+  EXPECT_THAT(fault(results), HasSubstr("--force would remove results, which is read"));
+  EXPECT_TRUE(fs::exists(results / "maps/global.pgm"));
+  const OutputFolder beside(results, true,
+                            {home.write("results2/map.pgm", "P5"), results / "effective.yaml"});
+}
+
 TEST(OutputFolder, KeepsResultsThatAppearedMeanwhile) {
   const TemporaryFolder folder;
   {
@@ -153,7 +172,7 @@ TEST(OutputFolder, TakesUpWhatWasLeftUnfinished) {
   EXPECT_EQ(content_of(folder / ".results.unfinished/a"), "1");
   EXPECT_EQ(entries(folder / ""), 1) << "the lock goes with its owner";
   {
-    OutputFolder out(folder / "results", false, [](const fs::path&, bool) { return true; });
+    OutputFolder out(folder / "results", false, {}, [](const fs::path&, bool) { return true; });
     out.write("b", "2");
     out.write("b", "3");
     out.commit();
@@ -167,7 +186,7 @@ TEST(OutputFolder, WhatWasLeftMayBeRemovedBeforeItIsSynced) {
   const TemporaryFolder folder;
   fs::create_directory(folder / ".results.unfinished");
   folder.write(".results.unfinished/left.json.part", "half");
-  OutputFolder out(folder / "results", false, [](const fs::path&, bool) { return true; });
+  OutputFolder out(folder / "results", false, {}, [](const fs::path&, bool) { return true; });
   fs::remove(folder / ".results.unfinished/left.json.part");
   EXPECT_NO_THROW(out.sync());
 }
@@ -185,7 +204,7 @@ TEST(OutputFolder, TakesUpResultsThatAreNotComplete) {
   const TemporaryFolder folder;
   fs::create_directory(folder / "results");
   folder.write("results/a", "1");
-  OutputFolder out(folder / "results", false, [](const fs::path&, bool) { return true; });
+  OutputFolder out(folder / "results", false, {}, [](const fs::path&, bool) { return true; });
   EXPECT_FALSE(fs::exists(folder / "results"));
   out.commit();
   EXPECT_EQ(content_of(folder / "results/a"), "1");
@@ -285,7 +304,7 @@ TEST(OutputFolder, WhatIsUnfinishedGoesOnBeforeWhatWasInterrupted) {
   folder.write("results/a", "interrupted");
   fs::create_directory(folder / ".results.unfinished");
   folder.write(".results.unfinished/a", "of another run");
-  OutputFolder out(folder / "results", true, [](const fs::path&, bool is_final) { return is_final; });
+  OutputFolder out(folder / "results", true, {}, [](const fs::path&, bool is_final) { return is_final; });
   EXPECT_EQ(content_of(out.unfinished() / "a"), "interrupted");
 }
 
@@ -306,7 +325,6 @@ class SomeUser {
 class LockedResults : public testing::Test {
  protected:
   LockedResults() {
-    fs::create_directories(folder_ / "results/maps");
     folder_.write("results/provenance.json", "{}");
     folder_.write("results/maps/a.pcd", "points");
     for (const char* name : {"", "results"}) fs::permissions(folder_ / name, fs::perms::all);

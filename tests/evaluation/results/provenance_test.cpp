@@ -64,6 +64,14 @@ TEST(WhyOtherRun, NamesWhatHasChanged) {
   folder.write("abc", "abd");
   EXPECT_EQ(why("values"), input.string() + " has changed since");
   folder.write("abc", "abc");
+  const auto clouds = folder.write("clouds/0.pcd", "").parent_path();
+  record["inputs_sha256"][clouds.string()] = hashes.of(clouds);
+  folder.write("clouds/0.pcd", "of a file its own hash tells");
+  folder.write("clouds/.hidden", "");
+  EXPECT_EQ(why("values"), "");
+  folder.write("clouds/1.pcd", "");
+  EXPECT_EQ(why("values"), clouds.string() + " has changed since");
+  std::filesystem::remove(clouds / "1.pcd");
   record["program_sha256"]["library"] = "another";
   EXPECT_EQ(why("values"), "it is of another build of the program");
 }

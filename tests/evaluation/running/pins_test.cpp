@@ -50,6 +50,8 @@ TEST_F(Pins, ManyFilesOfAFolderHaveOne) {
   const auto before = input_hashes(suite_, scans, hashes_);
   ASSERT_EQ(before.size(), 1U);
   EXPECT_EQ(before.begin()->first, "../");
+  scans.insert(folder_.path());
+  EXPECT_EQ(input_hashes(suite_, scans, hashes_), before);
   folder_.write("b.pcd", "another scan");
   FileHashes fresh;
   EXPECT_NE(input_hashes(suite_, scans, fresh), before);

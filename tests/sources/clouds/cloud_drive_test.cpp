@@ -91,7 +91,8 @@ TEST_F(CloudDriveTest, TakesKeyframesByOdometry) {
   EXPECT_EQ(samples[2].observation.stamp, 3.0);
   EXPECT_NEAR(samples[2].observation.odom_from_robot.tilt(), 0.3, 1e-5);
   EXPECT_EQ(samples[2].segment, 0);
-  EXPECT_THAT(inputs_, ElementsAre("odom.tum", "poses.tum", "0.pcd", "2.pcd", "3.pcd"));
+  EXPECT_THAT(inputs_,
+              ElementsAre(folder_.path().filename(), "odom.tum", "poses.tum", "0.pcd", "2.pcd", "3.pcd"));
 }
 
 TEST_F(CloudDriveTest, DeliversPointsInTheFrameOfTheRobot) {
