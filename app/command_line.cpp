@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <exception>
 #include <new>
@@ -103,12 +104,24 @@ std::string words_of(int argc, char** argv) {
   return words;
 }
 
+/// An option with nothing behind it, as "$OUT" where that is not set, would be as if it were not there.
+void check_no_empty_word(int argc, char** argv) {
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  const auto empty = std::find(words.begin(), words.end(), "");
+  if (empty == words.end() || words.front() == "complete") return;
+  throw ConfigError("glocal",
+                    fmt::format("an argument is empty: the one after '{}'; give it a value, or leave "
+                                "it out",
+                                empty == words.begin() ? "glocal" : *std::prev(empty)));
+}
+
 int parse_and_run(CLI::App& app, const Context& context, int argc, char** argv) {
   if (argc <= 1) {
     answer(app.help());
     flush_answers();
     return 0;
   }
+  check_no_empty_word(argc, argv);
   try {
     app.parse(argc, argv);
     flush_answers();

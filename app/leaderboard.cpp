@@ -11,6 +11,7 @@
 
 #include "app/commands.hpp"
 #include "app/experiment_options.hpp"
+#include "app/interrupts.hpp"
 #include "app/plain_suite.hpp"
 #include "app/standard_streams.hpp"
 #include "config/builtin_parts.hpp"
@@ -99,6 +100,7 @@ void show(const BoardOptions& options) {
       names.push_back(suite.id());
       for (BoardEntry& entry : entries_of(options, suite)) entries.push_back(std::move(entry));
     }
+    if (entries.empty()) refuse_empty(options);
     report = board_overview(names, entries);
   } else {
     check_case_names(options, suites.front());
@@ -267,6 +269,7 @@ void export_suite(const BoardOptions& options, Context& context) {
   const Suite suite = read_suite(options.suite);
   std::vector<Variant> variants = variants_of(options, suite, {}, "", context);
   ExperimentLoader loader(context.catalog, warn);
+  listen_to_interrupts();
   const std::size_t starts = write_plain_suite(suite, variants, loader, options.out, options.force);
   answer("{} starts of {} cases in {}\n", starts, variants.size(), options.out);
 }

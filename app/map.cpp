@@ -45,8 +45,15 @@ bool is_ros_map(const std::string& file) {
 
 /// The map of a file; `input` has what may be changed in it.
 MapData load(const ExperimentOptions& input, Context& context) {
-  if (is_ros_map(input.file)) return ros_map::RosMap({{input.file, input.file}}, {.warn = warn}).load();
-  return load_map(input.read(context), context.catalog, {.warn = warn});
+  const std::string extension = std::filesystem::path(input.file).extension().string();
+  if (extension != ".yaml" && extension != ".yml")
+    throw ConfigError(input.file,
+                      "is no YAML file; name a ROS map's, or that of an experiment whose map is meant");
+  if (!is_ros_map(input.file)) return load_map(input.read(context), context.catalog, {.warn = warn});
+  if (!input.words().empty())
+    throw ConfigError(input.file,
+                      "is a ROS map, in which nothing can be changed; leave out " + input.words().front());
+  return ros_map::RosMap({{input.file, input.file}}, {.warn = warn}).load();
 }
 
 /// The parameters of log_map, from `--set name=value`.

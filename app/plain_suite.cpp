@@ -10,10 +10,12 @@
 #include <string_view>
 
 #include "app/cloud_folder_writer.hpp"
+#include "app/interrupts.hpp"
 #include "evaluation/results/output_folder.hpp"
 #include "evaluation/results/pcd.hpp"
 #include "evaluation/results/provenance.hpp"
 #include "evaluation/running/trials.hpp"
+#include "glocal/error.hpp"
 #include "sources/conversion/recording_drive.hpp"
 #include "sources/ros_map/ros_map_writer.hpp"
 
@@ -77,6 +79,7 @@ std::size_t write_plain_suite(const Suite& suite, std::vector<Variant>& variants
   std::string starts = "case,seed,folder,start,scan,steps\n";
   std::size_t n = 0;
   for_each_loaded(variants, loader, [&](std::size_t i, LoadedExperiment& loaded) {
+    if (is_interrupted()) throw RunError("interrupted; nothing is left of " + out.string());
     const Variant& variant = variants[i];
     const std::uint64_t seed = variant.experiment.seed;
     const std::string below =

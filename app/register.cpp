@@ -222,6 +222,8 @@ Registering registering_of(const RegisterOptions& options, const CloudRegistrars
 
 void run(const RegisterOptions& options, const CloudRegistrars& registrars) {
   const Registering registering = registering_of(options, registrars);
+  if (!options.out.empty() && std::filesystem::path(options.out).extension() != ".pcd")
+    throw ConfigError(options.out, "the name must end in .pcd");
   if (!options.pairs.empty()) {
     if (!options.source.empty() || !options.out.empty())
       throw ConfigError("--pairs", "names the clouds by itself; leave out SOURCE, TARGET and --out");
@@ -265,7 +267,9 @@ void add_register(CLI::App& app, Context& context) {
   command->add_option("--max-size-gb", options->max_size_gb, "Most that a cloud may take, unpacked, GB")
       ->check(above_zero())
       ->capture_default_str();
-  command->add_option("--seed", options->seed, "Fixes all random numbers")->capture_default_str();
+  command->add_option("--seed", options->seed, "Fixes all random numbers")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   command->add_flag("--json", options->json, "One line of JSON a pair");
   command->add_flag("--force", options->force, "Replace the file that --out names");
   command->callback([options, &context] { run(*options, context.catalog.cloud_registrars); });

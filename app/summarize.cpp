@@ -82,10 +82,10 @@ Json to_json(const Row& row) {
   Json json = {{"name", row.name}, {"folders", row.folders}, {"complete", row.complete}};
   json.update(summary.figures());
   // What is not known is not 0.
-  if (!row.has_steps) {
-    for (const char* key : {"steps", "after_declaration", "step_ms", "answer_ms", "stage_ms"})
-      json.erase(key);
+  if (json.at("steps") == 0) {
+    for (const char* key : {"after_declaration", "step_ms", "answer_ms", "stage_ms"}) json.erase(key);
   }
+  if (!row.has_steps) json.erase("steps");
   return json;
 }
 

@@ -48,8 +48,10 @@ void add_sweep(CLI::App& app, Context& /*context*/) {
   command->add_option("--map", options->map, "The two parameters of the map (default: of the largest effect)")
       ->expected(2)
       ->type_name("A B");
-  command->add_option("--top", options->top, "Settings to list")->capture_default_str();
-  command->add_flag("--json", options->json, "All numbers as JSON");
+  CLI::Option* top = command->add_option("--top", options->top, "Settings to list")
+                         ->check(CLI::Range(1, 1'000'000))
+                         ->capture_default_str();
+  command->add_flag("--json", options->json, "All numbers as JSON")->excludes(top);
   command->callback([options] { analyse(*options); });
 }
 

@@ -60,7 +60,12 @@ std::vector<std::size_t> starts_at(const std::vector<double>& places_m, const Dr
   std::vector<std::size_t> starts;
   for (const double place : places_m) {
     const auto it = std::lower_bound(drive.path_m.begin(), drive.path_m.end(), place);
-    if (it != drive.path_m.end()) starts.push_back(static_cast<std::size_t>(it - drive.path_m.begin()));
+    if (it == drive.path_m.end())
+      throw ConfigError("",
+                        fmt::format("trials: starts_m: {} m is beyond the drive, which ends after {:.1f} m; "
+                                    "leave it out",
+                                    place, drive.path_m.back()));
+    starts.push_back(static_cast<std::size_t>(it - drive.path_m.begin()));
   }
   return starts;
 }

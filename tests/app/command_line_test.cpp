@@ -47,6 +47,23 @@ TEST_F(CommandLine, WrongUsageEndsWith2AndSuggests) {
   EXPECT_EQ(run("--frobnicate").exit_code, 2);
 }
 
+TEST_F(CommandLine, NothingIsNoArgument) {
+  for (const char* command : {"run room.yaml --out ''", "list ''", "run room.yaml --seeds '' --quiet"})
+    EXPECT_THAT(refusal(run(command)), HasSubstr("glocal: error: an argument is empty: the one after '"))
+        << command;
+  EXPECT_EQ(
+      refusal(run("''")),
+      "glocal: error: an argument is empty: the one after 'glocal'; give it a value, or leave it out\n1 "
+      "error\n");
+}
+
+TEST_F(CommandLine, AWrongFolderOfConfigurationsIsNamed) {
+  ::setenv("GLOCAL_CONFIGS", "nowhere", 1);
+  const std::string said = refusal(run("list methods"));
+  ::unsetenv("GLOCAL_CONFIGS");
+  EXPECT_THAT(said, HasSubstr("GLOCAL_CONFIGS: error: names 'nowhere', which is no folder"));
+}
+
 TEST_F(CommandLine, OptionsThatWereRenamedSayWhatTheyAreNow) {
   EXPECT_THAT(run("compare a b --csv c.csv").err, HasSubstr("; --csv is called -o FILE.csv now\n"));
   EXPECT_THAT(run("compare a b --markdown=c.md").err, HasSubstr("; --markdown is called -o FILE.md now\n"));

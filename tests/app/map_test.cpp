@@ -125,6 +125,11 @@ TEST_F(MapCommand, ReportsFaults) {
               HasSubstr("the name must end in .yaml (ROS map) or .pcd (points)"));
   EXPECT_THAT(run("map info " + file("none.yaml")).err, HasSubstr("no such file"));
   EXPECT_EQ(run("map").exit_code, 2);
+  EXPECT_THAT(refusal(run("map info " + file("drive.log"))), HasSubstr("drive.log: error: is no YAML file"));
+  good(run("map build " + file("drive.log") + " -o " + file("a.yaml")));
+  for (const char* change : {"--set resolution=1", "--seed 3", "--threads 2"})
+    EXPECT_THAT(refusal(run("map info " + file("a.yaml ") + change)),
+                HasSubstr("a.yaml: error: is a ROS map, in which nothing can be changed; leave out --"));
 }
 
 }  // namespace

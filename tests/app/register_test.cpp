@@ -159,6 +159,10 @@ TEST_F(RegisterCommand, RefusesWhatItCannotDo) {
   EXPECT_THAT(run("register --pairs " + file("p.csv")).err, HasSubstr("there is no column 'source'"));
   std::ofstream(file("bad.pcd")) << "VERSION 0.7\nFIELDS x y z\n";
   EXPECT_EQ(run("register " + file("bad.pcd") + " " + file("source.pcd")).exit_code, 2);
+  const std::string both = "register " + file("source.pcd") + " " + file("source.pcd");
+  EXPECT_THAT(refusal(run(both + " -o " + file("out.ply"))),
+              HasSubstr("out.ply: error: the name must end in .pcd"));
+  EXPECT_EQ(run(both + " --seed -1").exit_code, 2);
 }
 
 TEST_F(RegisterCommand, IsRightOnRealAndSimulatedPairs) {

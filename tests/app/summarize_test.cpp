@@ -83,6 +83,8 @@ TEST_F(SummarizeCommand, PoolsTrialsNotMedians) {
 TEST_F(SummarizeCommand, LooksAtSomeStepsOnly) {
   EXPECT_EQ(summary("--steps 1:9 " + file("runs/a"))[0]["step_ms"]["median"], 20.0);
   EXPECT_EQ(summary("--steps 0:1 " + file("runs/a"))[0]["step_ms"]["median"], 30.0);
+  EXPECT_FALSE(summary("--steps 7:9 " + file("runs/a"))[0].contains("step_ms"));
+  EXPECT_THAT(run("summarize --no-head --steps 7:9 " + file("runs/a")).out, EndsWith("| – |\n"));
   for (const char* wrong : {"5", "5:", ":5", "5:5", "7:5", "a:b", "1:2:3"}) {
     const Answer answer = run("summarize --steps " + std::string(wrong) + " " + file("runs/a"));
     EXPECT_EQ(answer.exit_code, 2) << wrong;

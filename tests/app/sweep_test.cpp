@@ -114,6 +114,8 @@ TEST_F(SweepCommand, SaysWhatToDoWithOtherFolders) {
               HasSubstr("--baseline best: error: there is no such setting"));
   EXPECT_THAT(refusal(run("sweep " + file("all") + " --map iteration min_side")),
               HasSubstr("--map iteration: error: no such parameter varies"));
+  EXPECT_EQ(run("sweep " + file("all") + " --top -1").exit_code, 2);
+  EXPECT_EQ(run("sweep " + file("all") + " --top 3 --json").exit_code, 2);
 }
 
 }  // namespace

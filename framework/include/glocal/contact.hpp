@@ -21,6 +21,8 @@ struct VoxelGrid;
 
 /// Tells which points are within epsilon (m) of a point of the map. Immutable, to be shared by all threads.
 /// Contract: all that is nearer than 0.8 epsilon is in contact, nothing that is farther than 1.2 epsilon.
+/// `bitset` rounds to its voxels, by half their diagonal: it keeps 0.78 and 1.22 in space, and on planar maps
+/// over 25 ha 0.65 and 1.35.
 class ContactIndex {
  public:
   /// One number for each motion of a batch.

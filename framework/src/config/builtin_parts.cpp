@@ -1,6 +1,7 @@
 #include "config/builtin_parts.hpp"
 
 #include <dlfcn.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -8,6 +9,8 @@
 #include <cstdlib>
 #include <fstream>
 #include <system_error>
+
+#include "glocal/error.hpp"
 
 namespace glocal {
 namespace {
@@ -54,10 +57,17 @@ std::optional<fs::path> builtin_plugin(const std::string& name) {
 }
 
 fs::path configs_folder() {
-  if (const char* given = std::getenv("GLOCAL_CONFIGS"); given != nullptr) return given;
+  std::error_code ignored;
+  if (const char* given = std::getenv("GLOCAL_CONFIGS"); given != nullptr) {
+    if (!fs::is_directory(given, ignored))
+      throw ConfigError("GLOCAL_CONFIGS",
+                        fmt::format("names '{}', which is no folder; unset it, or name one with methods/, "
+                                    "cases/ and suites/",
+                                    given));
+    return given;
+  }
   // Debian has a folder for each kind of processor below lib.
   for (const char* up : {"..", "../.."}) {
-    std::error_code ignored;
     fs::path configs = (library_folder() / up / "share/glocal/configs").lexically_normal();
     if (fs::is_directory(configs, ignored)) return configs;
   }

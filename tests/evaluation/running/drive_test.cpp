@@ -80,7 +80,7 @@ TEST(TrialStarts, OnAMapOfPointsAloneLieNearThese) {
 }
 
 TEST(TrialStarts, AtGivenPlaces) {
-  EXPECT_THAT(starts({.starts_m = {3.5, 9.0, 100.0}}, straight(15)), ElementsAre(4, 9));
+  EXPECT_THAT(starts({.starts_m = {3.5, 9.0, 14.0}}, straight(15)), ElementsAre(4, 9, 14));
   EXPECT_THAT(starts({.starts_m = {9.0, 3.5, 9.0}}, straight(15)), ElementsAre(4, 9));
 }
 
@@ -158,7 +158,8 @@ TEST(TrialStarts, SayWhyThereAreNone) {
       "error: trials: none of 2 starts along the drive of 1.0 m lies within 2.5 m of the mapped area "
       "with at least 1 observations left; use other starts, another segment of the drive, a larger "
       "trials.within_map_m or a smaller trials.min_steps");
-  EXPECT_NE(fault({.starts_m = {99.0}}, straight(5)), "");
+  EXPECT_EQ(fault({.starts_m = {1.0, 99.0}}, straight(5)),
+            "error: trials: starts_m: 99 m is beyond the drive, which ends after 4.0 m; leave it out");
 }
 
 TEST(TrialStarts, MoreThanAMillionAreRefused) {
