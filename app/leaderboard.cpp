@@ -140,8 +140,7 @@ void store(const BoardOptions& options, const BoardEntry& entry) {
                                   entry.method));
   const fs::path file = entry_file(options.folder(), entry.suite, entry.method);
   const fs::path history = options.history();
-  std::vector<fs::path> made;
-  check_written(make_folders(fs::absolute(history).parent_path(), made), history);
+  make_folders_above(history);
   // Several may add to one board at once.
   const FileLock lock(history.string() + ".lock", history);
   if (fs::exists(file)) {

@@ -75,8 +75,7 @@ class LiveLocalizer {
     link_->subscribe(begin(), Delivery::reliable);
     localizer_.reset(trial_);
     if (state_file_.empty()) return;
-    std::vector<std::filesystem::path> made;
-    check_written(make_folders(std::filesystem::absolute(state_file_).parent_path(), made), state_file_);
+    make_folders_above(state_file_);
     fingerprint_ = fingerprint(*loaded_.map);
     recall();
   }

@@ -34,9 +34,7 @@ void AtomicFiles::add(const fs::path& file, std::string_view content) {
   if (!replace_ && fs::exists(target, error)) {
     throw ConfigError(file, "the file exists; choose another name, or replace it with --force");
   }
-  std::vector<fs::path> changed;
-  check_written(make_folders(target.parent_path(), changed), file);
-  for (const fs::path& folder : changed) check_written(sync_to_disk(folder), file);
+  make_folders_above(target);
   // Processes of two machines may have the same number, and write at the same time.
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   const fs::path temporary =

@@ -94,6 +94,12 @@ void check_written(const std::error_code& error, const fs::path& file) {
   if (error) throw RunError(fmt::format("{}: cannot write: {}", file.string(), reason_of(error)));
 }
 
+void make_folders_above(const fs::path& file) {
+  std::vector<fs::path> changed;
+  check_written(make_folders(fs::absolute(file).parent_path(), changed), file);
+  for (const fs::path& folder : changed) check_written(sync_to_disk(folder), file);
+}
+
 fs::path without_links(const fs::path& path) {
   int links = 0;
   return follow(fs::absolute(path), links);

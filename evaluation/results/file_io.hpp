@@ -41,6 +41,9 @@ class Descriptor {
 [[nodiscard]] std::error_code make_folders(const std::filesystem::path& folder,
                                            std::vector<std::filesystem::path>& changed);
 
+/// The same for the folders above a file, which are synced. Throws RunError with the file and the reason.
+void make_folders_above(const std::filesystem::path& file);
+
 /// Waits until a file or folder is on the disk: of a file what is in it, of a folder the names in it.
 [[nodiscard]] std::error_code sync_to_disk(const std::filesystem::path& path);
 
