@@ -5,6 +5,7 @@
 
 #include "evaluation/results/map_files.hpp"
 #include "evaluation/results/writers.hpp"
+#include "evaluation/running/trials.hpp"
 #include "report/map_points.hpp"
 #include "report/point_lives.hpp"
 #include "report/report_data.hpp"
@@ -39,17 +40,6 @@ Json latest_scan(const Points& hits, std::size_t step) {
   return of_step(frames.to_json(), step);
 }
 
-TrialRecord started(std::size_t trial, const LoadedExperiment& loaded) {
-  TrialRecord record;
-  record.trial = trial;
-  record.start_sample = loaded.starts[trial];
-  record.start_m = loaded.drive.path_m[record.start_sample];
-  const Sample& start = loaded.drive.samples[record.start_sample];
-  record.start_stamp = start.observation.stamp;
-  record.start_reference = start.map_from_robot;
-  return record;
-}
-
 }  // namespace
 
 void LiveRun::begin(const std::string& variant, const std::filesystem::path& folder,
@@ -78,7 +68,9 @@ void LiveRun::step(std::size_t trial, const StepRecord& record, const Points& lo
   Points hits = loaded_->drive.samples[sample].observation.scan.hits;
   const std::lock_guard lock(mutex_);
   const auto [running, is_first] = running_.try_emplace(trial);
-  if (is_first) running->second.start = start_json(started(trial, *loaded_));
+  if (is_first)
+    running->second.start =
+        start_json(begun_trial(loaded_->drive, record.result.motion, trial, loaded_->starts[trial]));
   running->second.columns.add(line);
   running->second.step = record.result.step;
   running->second.local_map = std::move(latest);

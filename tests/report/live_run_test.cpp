@@ -86,6 +86,18 @@ TEST_F(LiveRunTest, HasTheLatestMapAndScanOfARunningTrialAndAllItsSteps) {
   EXPECT_EQ(trial["scans"], Json::parse(R"({"steps": [1], "first": [0, 1], "x": [5000], "y": [2000]})"));
 }
 
+TEST_F(LiveRunTest, SaysWhereATrialInSpaceBegan) {
+  loaded_.drive.samples[4].map_from_robot = Pose3(Vector3(2.0, 0.0, 1.5));
+  loaded_.drive.samples[4].map = "upstairs";
+  begin();
+  StepRecord record = step_record(0, {1, 2, 3});
+  record.result.motion = Motion::upright;
+  live_.step(1, record, {}, {.finished = 0, .trials = 2});
+  const Json start = data()["runs"][0]["trials"][0]["start"];
+  EXPECT_EQ(start["reference"]["z"], 1.5);
+  EXPECT_EQ(start["map"], "upstairs");
+}
+
 TEST_F(LiveRunTest, HasFinishedTrialsAsTheyAreWritten) {
   begin();
   step(1, 0);
