@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -105,12 +106,12 @@ void to_folder(const ConvertOptions& options, const Context& context) {
     throw ConfigError(options.in.file, "has planar scans, which are no clouds in space; name --out *.mcap");
   ReadingBar bar;
   const auto reader = options.in.open(warn, bar.call());
-  OutputFolder folder(options.out, options.force, options.in.inputs());
+  const std::set<fs::path> inputs = options.in.inputs();
+  OutputFolder folder(options.out, options.force, inputs);
   CloudFolderWriter writer(folder, options.in.file);
   const DriveCounts counts = conversion::pass_on(*reader, writer, options.in.file, warn);
   FileHashes hashes;
-  folder.append("provenance.json",
-                provenance(context.catalog, 1, options.in.inputs(), hashes).dump(2) + "\n");
+  folder.append("provenance.json", provenance(context.catalog, 1, inputs, hashes).dump(2) + "\n");
   folder.commit();
   tell(counts, options);
   tell_mount(writer.robot_from_sensor());

@@ -66,7 +66,7 @@ void check_spares(const fs::path& folder, const std::set<fs::path>& inputs) {
 }
 
 /// `there` is what is at `path`, or will be again.
-void check_free(const fs::path& path, const fs::path& there, bool replace) {
+void check_free(const fs::path& path, const fs::path& there, bool replace, const std::set<fs::path>& inputs) {
   std::error_code ignored;
   if (!fs::exists(there, ignored)) return;
   if (!fs::is_directory(there, ignored))
@@ -80,6 +80,7 @@ void check_free(const fs::path& path, const fs::path& there, bool replace) {
     refuse_output(path,
                   "--force replaces only earlier results, and this folder has no provenance.json; choose "
                   "another one with --out");
+  check_spares(path, inputs);
   check_removable(there);
 }
 
@@ -102,7 +103,8 @@ void OutputFolder::check(const fs::path& path, bool replace, const TakesUp& take
   if (fs::exists(places.lock, ignored)) const FileLock probe(places.lock, places.path);
   const bool moved = !fs::exists(places.path, ignored) && fs::exists(places.replaced, ignored);
   const fs::path& there = moved ? places.replaced : places.path;
-  if (!fs::is_directory(there, ignored) || !takes_up(there, true)) check_free(places.path, there, replace);
+  if (!fs::is_directory(there, ignored) || !takes_up(there, true))
+    check_free(places.path, there, replace, {});
 }
 
 void OutputFolder::tidy(const fs::path& path) {
@@ -128,8 +130,7 @@ void OutputFolder::take_up_or_begin(const std::set<fs::path>& inputs, const Take
   std::error_code error;
   keeps_ = fs::exists(places_.unfinished, error) && takes_up(places_.unfinished, false);
   const bool goes_on = !keeps_ && fs::is_directory(places_.path, error) && takes_up(places_.path, true);
-  if (!goes_on) check_free(places_.path, places_.path, replace_);
-  if (!goes_on && replace_) check_spares(places_.path, inputs);
+  if (!goes_on) check_free(places_.path, places_.path, replace_, inputs);
   if (!keeps_) fs::remove_all(places_.unfinished, error);
   if (goes_on) fs::rename(places_.path, places_.unfinished, error);
   check(error);

@@ -14,6 +14,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <system_error>
 
 #include "config/suites.hpp"
 #include "evaluation/results/file_io.hpp"
@@ -87,10 +88,12 @@ class Sha256 {
 /// A line for each file that is not hidden.
 std::string names_in(const std::filesystem::path& folder) {
   std::set<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+  std::error_code error, unreachable;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
     const std::string name = entry.path().filename().string();
-    if (entry.is_regular_file() && !name.starts_with('.')) names.insert(name);
+    if (entry.is_regular_file(unreachable) && !name.starts_with('.')) names.insert(name);
   }
+  if (error) throw RunError(folder.string() + ": cannot read");
   return fmt::format("{}\n", fmt::join(names, "\n"));
 }
 

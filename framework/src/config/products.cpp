@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <initializer_list>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -330,21 +331,18 @@ bool names_parts(std::string_view path) {
 }
 
 void drop_replaced(YamlNode& experiment, const std::vector<Override>& of_parts) {
-  const auto names = [&](std::string_view key) {
-    return std::any_of(of_parts.begin(), of_parts.end(),
-                       [&](const Override& part) { return part.first == key; });
+  const auto overrides = [&](std::string_view key) {
+    return std::ranges::find(of_parts, key, &Override::first) != of_parts.end();
   };
-  const auto has_any = [&](const auto& keys) {
-    return std::any_of(keys.begin(), keys.end(),
-                       [&](std::string_view key) { return find_entry(experiment, key) != nullptr; });
+  const auto has_own = [&](std::string_view key) { return find_entry(experiment, key) != nullptr; };
+  const auto has_any = [&](std::initializer_list<std::string_view> keys) {
+    return std::ranges::any_of(keys, has_own);
   };
-  const auto drop = [&](const auto& keys) {
-    std::erase_if(experiment.entries, [&](const YamlEntry& entry) { return has(keys, entry.key); });
-  };
-  if (names("methods") && !has_any(std::array{"methods"})) drop(std::array{std::string_view("localizer")});
-  const bool is_of_one_case = !has_any(std::array{"cases", "choose_on", "judge_on", "suite"}) &&
-                              has_any(std::array{"map", "observations"});
-  if (names("cases") && !names("suite") && is_of_one_case) drop(of_cases);
+  if (overrides("methods") && !has_own("methods")) take(experiment, "localizer");
+  const bool is_of_one_case =
+      has_any({"map", "observations"}) && !has_any({"cases", "choose_on", "judge_on", "suite"});
+  if (!is_of_one_case || !overrides("cases") || overrides("suite")) return;
+  for (const std::string_view key : of_cases) take(experiment, key);
 }
 
 Products take_products(YamlNode& experiment, AnyParams& params, std::vector<Fault>& faults) {
