@@ -49,12 +49,6 @@ constexpr std::size_t most_mirrored_points = 150;
 /// doors put more points out of contact than the mirror does.
 constexpr double share_left = 0.5;
 
-Points some_of(const Points& points, std::size_t most) {
-  Points chosen;
-  for (const std::size_t i : evenly_chosen(points.size(), most)) chosen.push_back(points[i]);
-  return chosen;
-}
-
 /// The exact one would take more memory than all else.
 const char* contact_for(double area) {
   return area > huge_area ? "bitset" : "kd_tree";
@@ -148,7 +142,7 @@ bool WholeMap::is_about(const LocalMap& local, const Pose3& map_from_local) cons
 
 WholeMap::Search WholeMap::begin(const LocalMap& local, const Pose3& map_from_local,
                                  const PoseGate& gate) const {
-  Points points = some_of(local.points, effort_of(pyramid_->motion()).most_points);
+  Points points = evenly_chosen(local.points, effort_of(pyramid_->motion()).most_points);
   const double contact = contact_of(points, map_from_local);
   const auto least_of = [](double share, const Points& of) {
     // Not one point more for the rounding of a share that is one of them.
@@ -166,7 +160,7 @@ WholeMap::Search WholeMap::begin(const LocalMap& local, const Pose3& map_from_lo
   if (in_space_ || contact + params_.margin > 1.0) return search;
   search.mirrored_points = search.points;
   for (float& y : search.mirrored_points->y) y = -y;
-  const Points sample = some_of(*search.mirrored_points, most_mirrored_points);
+  const Points sample = evenly_chosen(*search.mirrored_points, most_mirrored_points);
   const auto mirrored = [](const Pose3& pose) {
     const Pose2 seen = seen_from_above(pose);
     return Pose2{seen.x, -seen.y, -seen.theta};

@@ -11,6 +11,19 @@
 
 namespace glocal::box_search {
 
+BoxSearchResult::FoundPose Problem::found_at(const Box& box) const {
+  const double middle = middle_of_box();
+  BoxSearchResult::FoundPose found{boxes.pose(0, box.rotation, box.column + middle, box.row + middle),
+                                   boxes.height(box.layer + middle), box.at_middle};
+  if (boxes.tilt()) found.tilted_from_local = boxes.tilted_from_local(0, box.rotation);
+  return found;
+}
+
+bool Problem::is_excluded(const Box& box) const {
+  return exclusion &&
+         exclusion->near.are_near(found_at(box).pose() * local_from_robot, exclusion->map_from_robot);
+}
+
 /// Which boxes of one interval of rotations are worth a look.
 class WantedBoxes {
  public:
@@ -280,8 +293,8 @@ void TileSearch::add_boxes(Bottom& bottom, const Tile& tile, std::size_t least) 
       const std::size_t bound = counts_.at(i, k);
       const std::size_t at_middle = problem_.all_poses != nullptr ? middle_counts_.at(i, k) : bound;
       const Box box{bottom.rotation, tile.row + k, tile.column + i, tile.layer, at_middle};
-      take_in(found_.places, bottom.robots.of(box), box);
       found_.at_most = std::max(found_.at_most, bound);
+      if (!problem_.is_excluded(box)) take_in(found_.places, bottom.robots.of(box), box);
     }
   }
 }

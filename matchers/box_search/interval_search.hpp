@@ -32,6 +32,10 @@ struct Problem {
   }
   /// Where in a box of level 0 its middle is, in cells: a pose of a grid is a box.
   [[nodiscard]] double middle_of_box() const { return all_poses != nullptr ? 0.5 : 0.0; }
+  /// The pose at the middle of a box of level 0.
+  [[nodiscard]] BoxSearchResult::FoundPose found_at(const Box& box) const;
+  /// Whether that pose is near an excluded one. Others of the box may be farther away.
+  [[nodiscard]] bool is_excluded(const Box& box) const;
 };
 
 /// A tile of boxes, by its first one's translation. There are millions of them on a large map.

@@ -74,12 +74,7 @@ class State {
   [[nodiscard]] BoxSearchResult result() const {
     BoxSearchResult result = result_;
     if (!result.is_complete) return result;
-    const double middle = problem_.middle_of_box();
-    for (const Box& box : best_.falling()) {
-      result.poses.push_back({boxes_->pose(0, box.rotation, box.column + middle, box.row + middle),
-                              boxes_->height(box.layer + middle), box.at_middle});
-      if (boxes_->tilt()) result.poses.back().tilted_from_local = boxes_->tilted_from_local(0, box.rotation);
-    }
+    for (const Box& box : best_.falling()) result.poses.push_back(problem_.found_at(box));
     return result;
   }
 

@@ -56,9 +56,9 @@ struct BoxSearchResult {
 
 /// The best places of a local map: of each cell of robot poses, among the boxes that can bring at least
 /// `least` of the points into contact, the one with the most contact at its middle; of the pyramid's grid or
-/// of all poses. What is left out cannot reach `least` anywhere in its box. Of all poses, the smallest boxes
-/// are one cell wide, and their rotations move the farthest point by one. At least one point, and of more
-/// than TileCounts::most_points the search is given up.
+/// of all poses. What is left out cannot reach `least` anywhere in its box, or its middle is excluded. Of all
+/// poses, the smallest boxes are one cell wide, and their rotations move the farthest point by one. At least
+/// one point, and of more than TileCounts::most_points the search is given up.
 ///
 /// Where there would be more than `most_places`, these are the best of them (any, where several are equally
 /// good as the last). As soon as so many are known, no box that cannot beat the last of them is searched.

@@ -7,6 +7,7 @@
 
 #include "glocal/cloud_resolution.hpp"
 #include "glocal/error.hpp"
+#include "glocal/evenly.hpp"
 
 namespace glocal::surfel_ransam {
 namespace {
@@ -38,14 +39,8 @@ surfels::PreparedCloud prepared(const LocalMap& local, const Scan& latest, float
 /// of several planes (120 to 140 ns in a building, at 8 to 10 ns for a look of a search of the whole map).
 constexpr std::size_t looks_of_surfel = 12;
 
-/// A thousand points or fewer: enough for the share in contact.
-Points evenly_sampled(const Points& points) {
-  constexpr std::size_t most = 1000;
-  const std::size_t step = std::max<std::size_t>(1, points.size() / most);
-  Points sample;
-  for (std::size_t i = 0; i < points.size(); i += step) sample.push_back(points[i]);
-  return sample;
-}
+/// Points that are enough for the share in contact.
+constexpr std::size_t most_sampled = 1000;
 
 SurfelIndexRule index_rule(const SurfelRansam::Params& params, const GlobalMap& map) {
   return {.voxel_size = static_cast<float>(params.voxel_size.value_or(map_voxel_size(map.resolution()))),
@@ -119,12 +114,12 @@ double SurfelRansam::free_space_violation(const Points& points, const Pose3& map
 
 surfels::PoseSearch SurfelRansam::search_of(const LocalMap& local, const PoseGate& gate, std::size_t rounds,
                                             std::span<const RigidMotion> known, const Rng& rng) const {
-  surfels::PointJudge judge_sample = [this,
-                                      sample = evenly_sampled(local.points)](const RigidMotion& motion) {
-    const Pose3 pose = motion.pose();
-    return surfels::PointEvidence{contact_->share(sample, pose), free_space_violation(sample, pose),
-                                  sample.size()};
-  };
+  surfels::PointJudge judge_sample =
+      [this, sample = evenly_chosen(local.points, most_sampled)](const RigidMotion& motion) {
+        const Pose3 pose = motion.pose();
+        return surfels::PointEvidence{contact_->share(sample, pose), free_space_violation(sample, pose),
+                                      sample.size()};
+      };
   const surfels::PoseSearchParams params{.rounds = rounds,
                                          .draws = draws,
                                          .partners = partners,

@@ -314,6 +314,30 @@ TEST(SearchBoxes, AFewPlacesAreTheBestOfAll) {
   }
 }
 
+/// Two walls along x, 1.6 m apart.
+Points corridor(float from_x, float to_x) {
+  Points points;
+  for (float x = from_x; x <= to_x; x += 0.05F) {
+    points.push_back({x, -0.8F, 0.0F});
+    points.push_back({x, 0.8F, 0.0F});
+  }
+  return points;
+}
+
+/// Along it all fits. Boxes at the edge of the neighbourhood have poses on both sides of it.
+TEST(SearchBoxes, APoseNearTheDeclaredOneTakesNoRivalsPlace) {
+  const BoxPyramid pyramid = pyramid_of(corridor(-10.0F, 10.0F));
+  const Points points = corridor(-2.0F, 2.0F);
+  const Pose2 declared{0.0, 0.0, 0.0};
+  const auto found = search(pyramid, points, declared, {.least = points.size() * 9 / 10, .most_places = 200});
+  ASSERT_TRUE(found.is_complete);
+  ASSERT_GE(found.poses.size(), 20U);
+  for (const auto& rival : found.poses)
+    EXPECT_FALSE(PoseTolerance{}.are_near(rival.map_from_local, declared))
+        << distance(rival.map_from_local, declared);
+  EXPECT_EQ(found.at_most, points.size());
+}
+
 /// With cells as large as epsilon, walls 25 cm too far away are as good as in contact, for all that a box of
 /// poses tells. Twelve such rooms have higher bounds than the right one, which is in want of some points.
 TEST(SearchBoxes, RoomsThatOnlySeemToFitDoNotHideTheOneThatFits) {
