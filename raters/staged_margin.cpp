@@ -132,13 +132,13 @@ void describe(ParamVisitor& v, StagedMargin::Params& p) {
        .max_items = 100,
        .audience = Audience::tuner});
   v.field("max_turn_rate_deg", p.max_turn_rate_deg,
-          {.doc = "Nothing is declared while the robot turns faster than this: scans are smeared then, and "
-                  "time stamps are not exact enough for the heading.",
+          {.doc = "Nothing is declared while the robot turns faster than this, nor in the two steps after: "
+                  "scans are smeared then, and time stamps are not exact enough for the heading.",
            .unit = "deg/s",
            .above = 0.0,
            .audience = Audience::expert});
   v.field("max_free_space_violation", p.max_free_space_violation,
-          {.doc = "Nothing is declared if a larger share of the points lies in space known to be free, where "
+          {.doc = "No margin is enough if a larger share of the points lies in space known to be free, where "
                   "the matcher tells that share.",
            .min = 0.0,
            .max = 1.0,
@@ -146,8 +146,9 @@ void describe(ParamVisitor& v, StagedMargin::Params& p) {
            .formerly = "max_conflict"});
   v.field(
       "min_scan_contact", p.min_scan_contact,
-      {.doc = "All begins anew in a step whose own scan has less contact at the best pose, however well the "
-              "local map fits: the robot is perhaps no longer there.",
+      {.doc = "Margins count anew after a step whose own scan has less contact at the best pose, however "
+              "well the local map fits: the robot is perhaps no longer there. All begins anew where that is "
+              "less than 0.7 of what it was.",
        .min = 0.0,
        .max = 1.0,
        .audience = Audience::tuner});
@@ -181,6 +182,7 @@ void StagedMargin::refute(const Verification& verification) {
 void StagedMargin::reset() {
   begin_anew();
   best_.reset();
+  last_step_.reset();
   since_turn_.reset();
   views_to_be_sure_ = first_views_to_be_sure;
 }
@@ -201,12 +203,14 @@ void StagedMargin::begin_stages_anew() {
 }
 
 Verdict StagedMargin::judge(const StepResult& step) {
+  const double turn_rate_deg = last_step_ ? degrees(last_step_->turn_rate_to(step)) : 0.0;
+  const bool is_steady_now = is_steady(turn_rate_deg);
+  last_step_ = FollowedPose::of(step, {});
   if (step.hypotheses.empty()) {
     begin_anew();
     best_.reset();
     return {.kind = VerdictKind::searching, .why = "no pose fits the local map well enough in this step"};
   }
-  const double turn_rate_deg = best_ ? degrees(best_->turn_rate_to(step)) : 0.0;
   const Pose3& pose = step.hypotheses.front().map_from_robot;
   const bool goes_on = best_ && best_->may_be(pose, step);
   const double driven = goes_on ? distance(best_->local_from_robot, step.local_from_robot) : 0.0;
@@ -233,7 +237,6 @@ Verdict StagedMargin::judge(const StepResult& step) {
   const std::optional<double> lead = beam_lead(step.hypotheses);
   const Evidence evidence{margin, mean_margin_, views_, step.hypotheses.front().quality, lead};
   const double confidence = confidence_of(evidence, log_odds_before(step));
-  const bool is_steady_now = is_steady(turn_rate_deg);
   const bool is_sure = is_steady_now && has_verifier_ && lead && views_ >= views_to_be_sure_ &&
                        confidence >= params_.min_confidence;
   const bool may_be_declared = is_steady_now && is_consistent;
@@ -291,7 +294,8 @@ std::size_t StagedMargin::Stages::least_steps() const {
 }
 
 std::size_t StagedMargin::least_steps() const {
-  return std::min(stages_.least_steps(), certified_stages_.least_steps());
+  const std::size_t least = std::min(stages_.least_steps(), certified_stages_.least_steps());
+  return has_verifier_ ? std::min<std::size_t>(least, first_views_to_be_sure) : least;
 }
 
 Verdict StagedMargin::localized(const StepResult& step, double margin) const {

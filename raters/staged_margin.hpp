@@ -17,8 +17,8 @@ namespace glocal::raters {
 /// enough: the clearer, the sooner. The best hypothesis must stay the same, moved by the local motion;
 /// another best one, a step without any, another local map, or a scan with less contact there than usual
 /// begins anew, and a scan with less than `min_scan_contact` lets the stages begin anew. That, or a margin
-/// below every stage's, takes the verdict back. Where declarations are verified, there are lower stages, too,
-/// for poses that the verifier certifies to have no more contact anywhere else.
+/// below every stage's with a low confidence, takes the verdict back. Where declarations are verified, there
+/// are lower stages, too, for poses that the verifier certifies to have no more contact anywhere else.
 ///
 /// Where the matcher tells what beams say, and declarations are verified, a confidence of `min_confidence` is
 /// enough, too, however little of the scan is on the map.
@@ -48,6 +48,7 @@ class StagedMargin final : public VerdictRule {
   [[nodiscard]] Verdict judge(const StepResult& step) override;
   [[nodiscard]] std::size_t least_steps() const override;
   void refute(const Verification& verification) override;
+  void withhold() override { is_declared_ = false; }
   void reset() override;
 
  private:
@@ -85,14 +86,15 @@ class StagedMargin final : public VerdictRule {
   Stages certified_stages_;  ///< None where nothing is verified.
   bool has_verifier_;
   std::optional<FollowedPose> best_;
-  int steps_ = 0;                ///< In which the best pose has been the same.
-  double mean_margin_ = 0.0;     ///< In the latest of these.
-  int views_ = 0;                ///< Of these, without those that see the same again.
-  Pose3 last_view_;              ///< local_from_robot of the last one of them.
-  double distance_ = 0.0;        ///< m; driven in these.
-  bool is_declared_ = false;     ///< In one of them.
-  double sum_of_contact_ = 0.0;  ///< Of the latest scan at the best pose, in each of them.
-  int views_to_be_sure_;         ///< Twice as many after each refutation.
+  std::optional<FollowedPose> last_step_;  ///< Where the robot was in it; of no pose in the map.
+  int steps_ = 0;                          ///< In which the best pose has been the same.
+  double mean_margin_ = 0.0;               ///< In the latest of these.
+  int views_ = 0;                          ///< Of these, without those that see the same again.
+  Pose3 last_view_;                        ///< local_from_robot of the last one of them.
+  double distance_ = 0.0;                  ///< m; driven in these.
+  bool is_declared_ = false;               ///< In one of them.
+  double sum_of_contact_ = 0.0;            ///< Of the latest scan at the best pose, in each of them.
+  int views_to_be_sure_;                   ///< Twice as many after each refutation.
   /// Steps since the robot last turned fast; none while it has not.
   std::optional<int> since_turn_;
 };

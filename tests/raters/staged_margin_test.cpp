@@ -139,6 +139,38 @@ TEST(StagedMargin, ARobotThatTurnsFastIsNotDeclaredUntilSomeStepsLater) {
               ElementsAre(searching, searching, searching, searching, searching, searching, localized));
 }
 
+TEST(StagedMargin, ATurnIsSeenInAStepWithoutHypothesesToo) {
+  StagedMargin rule({}, {});
+  std::vector<StepResult> steps;
+  // 70 degrees in step 1, which nothing fits.
+  for (int i = 0; i < 6; ++i) {
+    StepResult after = step(0.9, 0.5);
+    const Pose2 turned{0.0, 0.0, radians(i > 0 ? 70.0 : 0.0)};
+    after.stamp = i;
+    after.local_from_robot = turned;
+    for (Hypothesis& h : after.hypotheses) h.map_from_robot = h.map_from_robot * Pose3(turned);
+    if (i == 1) after.hypotheses.clear();
+    steps.push_back(after);
+  }
+  EXPECT_THAT(kinds(rule, steps),
+              ElementsAre(searching, searching, searching, searching, localized, localized));
+  // Step 4 is the third one that fits, and the third one after the turn.
+  steps[1].local_from_robot = steps[2].local_from_robot = Pose2{0.0, 0.0, radians(70.0)};
+  steps[2].hypotheses.clear();
+  steps[3].stamp = 2.0;
+  rule.reset();
+  EXPECT_EQ(kinds(rule, steps)[4], searching);
+}
+
+TEST(StagedMargin, WhatIsWithheldIsDeclaredOnlyWhereAStageIsReached) {
+  StagedMargin rule({}, {});
+  const StepResult clear = step(0.9, 0.5);
+  EXPECT_THAT(kinds(rule, {clear, clear, clear}), ElementsAre(searching, searching, localized));
+  rule.withhold();
+  // As clear as it takes to stay declared.
+  EXPECT_EQ(rule.judge(step(0.9, 0.78)).kind, searching);
+}
+
 TEST(StagedMargin, AViolationOfFreeSpaceForbidsADeclaration) {
   StagedMargin rule({.max_free_space_violation = 0.4}, {});
   StepResult violating = step(0.9, 0.5);
@@ -332,6 +364,10 @@ TEST(StagedMargin, ARivalThatWasNotKnownBeginsAnew) {
 TEST(StagedMargin, KnowsWhenItCanDeclareAtTheEarliest) {
   EXPECT_EQ(StagedMargin({}, {}).least_steps(), 3U);
   EXPECT_EQ(StagedMargin({}, with_verifier()).least_steps(), 2U);
+  // By its confidence.
+  const std::vector<StagedMargin::Stage> late = {{.margin = 0.3, .steps = 30}};
+  EXPECT_EQ(StagedMargin({.stages = late, .certified_stages = {}}, with_verifier()).least_steps(), 2U);
+  EXPECT_EQ(StagedMargin({.stages = late}, {}).least_steps(), 30U);
 }
 
 }  // namespace

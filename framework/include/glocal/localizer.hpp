@@ -119,11 +119,15 @@ class Localizer {
   /// From the hypotheses to the verdict, and ended().
   [[nodiscard]] StepResult judged(const LocalMap& local, const Observation& latest, StepResult result,
                                   std::optional<std::size_t> looks_after = {});
-  /// Puts the expected pose among the hypotheses of the first step, and follows it.
+  /// Follows the expected pose while it is the best one.
   void follow_expected(const LocalMap& local, StepResult& result);
+  /// Puts it among the hypotheses of the first step that has points.
+  void add_expected(const LocalMap& local, StepResult& result);
   void cluster(StepResult& result);
   void rate(StepResult& result);
   void judge(StepResult& result);
+  /// Tells the rule that what it declares is not told.
+  void withhold(const StepResult& result);
   /// Takes back what the verdict rule declares where the set-up of the robot is wrong, or in doubt.
   void check_setup(const Observation& observation, const LocalMap& local, StepResult& result);
   /// Lets the verifier look for rivals of a pose when it is declared: with one, it is not.
@@ -155,6 +159,7 @@ class Localizer {
   std::optional<ExpectedPose> expected_;  ///< In the map's frame; none once it was dropped.
   Pose3 expected_map_from_local_;         ///< Relative to the map's origin, after the first step.
   int expected_epoch_ = 0;                ///< Of that local map.
+  bool is_expected_scored_ = false;       ///< The local map has had points.
   /// What was declared by the last step, once it is verified. Another pose that is declared is to be verified
   /// in turn.
   struct VerifiedPose {

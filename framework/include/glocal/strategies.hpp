@@ -165,6 +165,8 @@ class VerdictRule {
   /// The pose that judge() has just declared is not: it has a rival that the rule did not know of, or lacks
   /// the certificate that the verdict needs.
   virtual void refute(const Verification& /*verification*/) {}
+  /// It is not told, for what the rule does not know of: the robot's set-up, or that it is off the map.
+  virtual void withhold() {}
   virtual void reset() = 0;
 };
 

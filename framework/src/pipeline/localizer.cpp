@@ -320,35 +320,41 @@ void Localizer::take_in(MatchResult match, StepResult& result) const {
 
 void Localizer::follow_expected(const LocalMap& local, StepResult& result) {
   if (!expected_) return;
-  std::vector<Hypothesis>& hypotheses = result.hypotheses;
-  const bool is_first = result.step == 0;
-  if (is_first) {
+  if (result.step == 0) {
     expected_map_from_local_ = shifted(expected_->map_from_robot, -origin_) * inverse(local.local_from_robot);
-    const auto contact = contact_index(*stage_setup_.map, "bitset", stage_setup_.contact_epsilon)
-                             ->share(local.points, expected_map_from_local_);
-    in_stage(stages_.matcher, result.step, [&] {
-      timed(&StageTimes::match, result, [&] {
-        for (Hypothesis& h : by_contact_->matcher->rescore(
-                 {Hypothesis::by_contact(expected_map_from_local_, contact)}, local))
-          hypotheses.push_back(h);
-      });
-      for (Hypothesis& h : hypotheses) h.map_from_robot = h.map_from_local * local.local_from_robot;
-      std::stable_sort(hypotheses.begin(), hypotheses.end(),
-                       [](const Hypothesis& a, const Hypothesis& b) { return a.score > b.score; });
-      std::erase_if(hypotheses, [&](const Hypothesis& h) {
-        return h.score < result.omega_max || !gate_.allows(h.map_from_local);
-      });
-      check_hypotheses(hypotheses, result.omega_max, motion_);
-    });
-    note_best(result);
+    expected_epoch_ = local.epoch;
+    is_expected_scored_ = false;
   }
+  if (local.epoch != expected_epoch_) return expected_.reset();
+  if (local.points.empty()) return;
+  if (!std::exchange(is_expected_scored_, true)) add_expected(local, result);
   const Pose3 map_from_robot = expected_map_from_local_ * local.local_from_robot;
   constexpr PoseTolerance near;
   const bool is_best =
-      !hypotheses.empty() && near.are_near(hypotheses.front().map_from_robot, map_from_robot);
-  if (is_first) expected_epoch_ = local.epoch;
-  if (!is_best || local.epoch != expected_epoch_) return expected_.reset();
+      !result.hypotheses.empty() && near.are_near(result.hypotheses.front().map_from_robot, map_from_robot);
+  if (!is_best) return expected_.reset();
   result.expected = {map_from_robot, expected_->odds};
+}
+
+void Localizer::add_expected(const LocalMap& local, StepResult& result) {
+  std::vector<Hypothesis>& hypotheses = result.hypotheses;
+  const auto contact = contact_index(*stage_setup_.map, "bitset", stage_setup_.contact_epsilon)
+                           ->share(local.points, expected_map_from_local_);
+  in_stage(stages_.matcher, result.step, [&] {
+    timed(&StageTimes::match, result, [&] {
+      for (Hypothesis& h :
+           by_contact_->matcher->rescore({Hypothesis::by_contact(expected_map_from_local_, contact)}, local))
+        hypotheses.push_back(h);
+    });
+    for (Hypothesis& h : hypotheses) h.map_from_robot = h.map_from_local * local.local_from_robot;
+    std::stable_sort(hypotheses.begin(), hypotheses.end(),
+                     [](const Hypothesis& a, const Hypothesis& b) { return a.score > b.score; });
+    std::erase_if(hypotheses, [&](const Hypothesis& h) {
+      return h.score < result.omega_max || !gate_.allows(h.map_from_local);
+    });
+    check_hypotheses(hypotheses, result.omega_max, motion_);
+  });
+  note_best(result);
 }
 
 void Localizer::cluster(StepResult& result) {
@@ -375,6 +381,7 @@ void Localizer::judge(StepResult& result) {
     check_verdict(result.verdict, motion_);
   });
   if (by_contact_->unknown_place.is_unknown(result.omega_place)) {
+    withhold(result);
     result.verdict = {
         VerdictKind::unknown_place,
         std::nullopt,
@@ -383,11 +390,17 @@ void Localizer::judge(StepResult& result) {
   }
 }
 
+void Localizer::withhold(const StepResult& result) {
+  if (result.verdict.kind == VerdictKind::localized)
+    in_stage(stages_.verdict_rule, result.step, [&] { verdict_rule_->withhold(); });
+}
+
 void Localizer::check_setup(const Observation& observation, const LocalMap& local, StepResult& result) {
   if (!setup_) return;
   result.setup = setup_->update(observation, local);
   const bool is_localized = result.verdict.kind == VerdictKind::localized;
   if (!result.setup->fault && !(result.setup->is_in_doubt && is_localized)) return;
+  withhold(result);
   result.verdict.kind = VerdictKind::searching;
   result.verdict.map_from_robot.reset();
   result.verdict.candidates.clear();

@@ -67,6 +67,23 @@ TEST_F(Expected, MovesWithTheRobot) {
   EXPECT_EQ(next.expected->map_from_robot, Pose3(Pose2{1.0, 2.0, 0.5}));
 }
 
+TEST_F(Expected, WaitsUntilSomethingIsSeen) {
+  script_->match = [](double, Rng&) { return MatchResult{}; };
+  const Points seen = std::exchange(script_->local.points, {});
+  const std::vector<std::size_t> ends = std::exchange(script_->local.ends, {});
+  localizer_.expect({Pose3{}, 9.0});
+  script_->r = {};
+  EXPECT_FALSE(localizer_.step({}).expected);
+  EXPECT_THAT(script_->calls, Not(Contains("rescore")));
+  script_->local.points = seen;
+  script_->local.ends = ends;
+  script_->local.local_from_robot = Pose2{1.0, 0.0, 0.0};
+  script_->r = {1.0};
+  const StepResult second = localizer_.step({});
+  ASSERT_TRUE(second.expected);
+  EXPECT_EQ(second.expected->map_from_robot, Pose3(Pose2{1.0, 0.0, 0.0}));
+}
+
 TEST_F(Expected, IsDroppedOnceAnotherPoseIsBetter) {
   localizer_.expect({Pose2{1.0, 0.0, 0.0}, 9.0});  // Out of contact there, and below the threshold.
   script_->r = {1.0};
