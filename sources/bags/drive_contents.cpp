@@ -120,8 +120,8 @@ void ContentsReader::take(const RecordedMessage& message) {
 
 DriveContents& ContentsReader::settle(bool more_may_come) {
   contents_.tree.settle(more_may_come);
-  for (auto& [topic, odometry] : odometry_) odometry.poses.settle(more_may_come);
-  contents_.reference.settle(more_may_come);
+  for (auto& [topic, odometry] : odometry_) odometry.poses.settle();
+  contents_.reference.settle();
   contents_.mounts.clear();
   choose_frames(more_may_come);
   contents_.tf_reference = contents_.tree.path(wanted_.reference_frame, contents_.base_frame);

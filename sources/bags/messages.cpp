@@ -132,6 +132,9 @@ LaserScan read_laser_scan(const RecordedMessage& message) {
                        &scan.scan_time, &scan.range_min, &scan.range_max})
     *value = reader.number<float>();
   scan.ranges = reader.numbers<float>();
+  if (!std::isfinite(scan.angle_min) || !std::isfinite(scan.angle_increment))
+    reader.refuse(fmt::format("its angles begin at {} rad and grow by {} rad; both must be finite",
+                              scan.angle_min, scan.angle_increment));
   const double end = static_cast<double>(scan.time_increment) * static_cast<double>(scan.ranges.size());
   if (const std::string fault = fault_of_scan_times(0.0, end); !fault.empty()) reader.refuse(fault);
   return scan;

@@ -5,8 +5,7 @@
 
 namespace glocal::bags {
 
-void PoseTrack::settle(bool more_may_come) {
-  may_grow_ = more_may_come;
+void PoseTrack::settle() {
   std::stable_sort(poses_.begin(), poses_.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   // Of equal stamps the last one: from the back, unique() keeps the first that it meets.
@@ -25,7 +24,6 @@ void PoseTrack::forget_before(std::int64_t stamp_ns) {
 }
 
 std::optional<Pose3> PoseTrack::at(std::int64_t stamp_ns, std::int64_t max_gap_ns) const {
-  if (is_still_ && !may_grow_) return poses_.front().second;
   const auto after = not_before(stamp_ns);
   if (after == poses_.end()) return std::nullopt;
   if (after->first == stamp_ns) return after->second;

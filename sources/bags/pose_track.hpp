@@ -33,9 +33,9 @@ class EvenMotion {
 class PoseTrack {
  public:
   void add(std::int64_t stamp_ns, const Pose3& pose) { poses_.emplace_back(stamp_ns, pose); }
-  /// To be called once all poses are there: sorts them; of those with equal stamps the last one stays. Where
-  /// more may come, a track that is still so far has its pose only where it is known.
-  void settle(bool more_may_come = false);
+  /// To be called once all poses are there, or whenever it is asked where more may come: sorts them; of those
+  /// with equal stamps the last one stays.
+  void settle();
   /// Forgets what was before the last pose that is not after a time. To be settled.
   void forget_before(std::int64_t stamp_ns);
 
@@ -49,8 +49,8 @@ class PoseTrack {
   /// Whether all poses are the same one, so far.
   [[nodiscard]] bool is_still() const { return is_still_; }
 
-  /// The pose at a time: between two that are at most `max_gap_ns` apart, as an even motion has it. A track
-  /// that is still for good has its pose at all times. None otherwise.
+  /// The pose at a time: between two that are at most `max_gap_ns` apart, as an even motion has it. None
+  /// otherwise.
   [[nodiscard]] std::optional<Pose3> at(std::int64_t stamp_ns, std::int64_t max_gap_ns) const;
   /// The pose whose stamp is nearest to a time; none if it differs by more than `max_difference_ns`.
   [[nodiscard]] std::optional<Pose3> nearest(std::int64_t stamp_ns, std::int64_t max_difference_ns) const;
@@ -62,7 +62,7 @@ class PoseTrack {
   [[nodiscard]] Poses::const_iterator not_before(std::int64_t stamp_ns) const;
 
   Poses poses_;
-  bool is_still_ = false, may_grow_ = false;
+  bool is_still_ = false;
 };
 
 }  // namespace glocal::bags

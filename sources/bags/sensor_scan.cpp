@@ -31,7 +31,8 @@ SensorScan rays_of(const LaserScan& scan, const RangeLimits& limits) {
   SensorScan rays;
   for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
     const double range = scan.ranges[i];
-    const bool no_return = range >= max_range;
+    // Readings are in single precision, and so is the limit that they are set to.
+    const bool no_return = range >= static_cast<float>(max_range);
     if (no_return ? free_range <= 0.0 : !(range >= min_range)) continue;
     const double angle = scan.angle_min + static_cast<double>(i) * scan.angle_increment;
     const double reach = no_return ? free_range : range;

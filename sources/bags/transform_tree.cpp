@@ -26,14 +26,16 @@ void TransformTree::settle(bool more_may_come) {
         std::max_element(by_parent.begin(), by_parent.end(),
                          [&](const auto& a, const auto& b) { return times_named(a) < times_named(b); });
     parents_[child] = parent->first;
-    parent->second.track.settle(more_may_come);
+    parent->second.track.settle();
+    parent->second.may_grow = more_may_come;
   }
 }
 
 void TransformTree::forget_before(std::int64_t stamp_ns) {
   for (auto& [child, by_parent] : edges_) {
     for (auto& [parent, edge] : by_parent) {
-      edge.track.settle(true);
+      edge.track.settle();
+      edge.may_grow = true;
       edge.track.forget_before(stamp_ns);
     }
   }
@@ -76,6 +78,11 @@ std::optional<Pose3> TransformEdge::still() const {
   return track.is_still() ? std::optional(track.first()) : std::nullopt;
 }
 
+std::optional<Pose3> TransformEdge::at(std::int64_t stamp_ns, std::int64_t max_gap_ns) const {
+  const auto always = may_grow ? fixed : still();
+  return always ? always : track.at(stamp_ns, max_gap_ns);
+}
+
 void FramePath::Climb::add(const TransformEdge& edge, bool may_move) {
   const auto parent_from_frame = may_move ? edge.fixed : edge.still();
   if (moving.empty() && parent_from_frame) {
@@ -88,7 +95,7 @@ void FramePath::Climb::add(const TransformEdge& edge, bool may_move) {
 std::optional<Pose3> FramePath::Climb::top_from_frame(std::int64_t stamp_ns, std::int64_t max_gap_ns) const {
   Pose3 top_from_frame = still;
   for (const TransformEdge* edge : moving) {
-    const auto parent_from_frame = edge->fixed ? edge->fixed : edge->track.at(stamp_ns, max_gap_ns);
+    const auto parent_from_frame = edge->at(stamp_ns, max_gap_ns);
     if (!parent_from_frame) return std::nullopt;
     top_from_frame = *parent_from_frame * top_from_frame;
   }

@@ -17,9 +17,13 @@ namespace glocal::bags {
 struct TransformEdge {
   PoseTrack track;
   std::optional<Pose3> fixed;
+  bool may_grow = false;
 
   /// The pose that it always has, or has had so far; none if it moves.
   [[nodiscard]] std::optional<Pose3> still() const;
+  /// The pose at a time (PoseTrack::at). One that is still, and can no longer change, has its pose at all
+  /// times.
+  [[nodiscard]] std::optional<Pose3> at(std::int64_t stamp_ns, std::int64_t max_gap_ns) const;
 };
 
 /// The way through a tree from one frame to another one. Valid as long as its tree is, or what that was moved
@@ -27,7 +31,7 @@ struct TransformEdge {
 class FramePath {
  public:
   /// The pose of the second frame in the first one. None if a transform on the way is not known at this time
-  /// (PoseTrack::at).
+  /// (TransformEdge::at).
   [[nodiscard]] std::optional<Pose3> pose(std::int64_t stamp_ns, std::int64_t max_gap_ns) const;
   /// Whether that pose never changes.
   [[nodiscard]] bool is_still() const;

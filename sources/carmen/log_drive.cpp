@@ -98,7 +98,8 @@ Scan robot_scan(const CarmenScan& scan, const LogParams& params) {
   out.hits.reserve(scan.ranges.size());
   for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
     const double range = scan.ranges[i];
-    const bool no_return = !std::isfinite(range) || range < 0.0 || range >= max_range;
+    // Readings are in single precision, and so is the limit that they are set to.
+    const bool no_return = !std::isfinite(range) || range < 0.0 || range >= static_cast<float>(max_range);
     if (no_return ? free_range <= 0.0 : range < params.min_range) continue;
     const double angle =
         scan.start_angle + static_cast<double>(i) * scan.angle_step + radians(params.laser_yaw_deg);

@@ -71,7 +71,7 @@ bags::LaserScan laser_scan(const CarmenScan& scan, double max_range, const std::
   out.angle_increment = static_cast<float>(scan.angle_step);
   out.range_max = static_cast<float>(farthest);
   for (const float range : scan.ranges) {
-    const bool met_nothing = !(range >= 0.0F && range < farthest);
+    const bool met_nothing = !(range >= 0.0F && range < out.range_max);
     out.ranges.push_back(met_nothing ? std::numeric_limits<float>::infinity() : range);
   }
   return out;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <utility>
 
 namespace glocal::disturbed {
@@ -20,8 +21,10 @@ void describe_chosen(ParamVisitor& v, Chosen& p, const std::vector<Kind>& kinds)
   v.require((p.level > 0) != p.amount.has_value(), "level",
             "must be from 1 to 5, or an amount be given in its place");
   for (const Kind& kind : kinds) {
-    if (kind.name == p.kind && p.amount)
-      v.require(*p.amount <= kind.most, "amount", fmt::format("must be at most {} {}", kind.most, kind.unit));
+    if (kind.name != p.kind || !p.amount) continue;
+    v.require(*p.amount <= kind.most, "amount", fmt::format("must be at most {} {}", kind.most, kind.unit));
+    v.require(kind.least == 0 || (*p.amount >= kind.least && *p.amount == std::floor(*p.amount)), "amount",
+              fmt::format("must be a whole number of at least {}", kind.least));
   }
 }
 

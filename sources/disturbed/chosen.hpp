@@ -19,6 +19,7 @@ struct Kind {
   double most;                   ///< Amounts are above 0 and at most this.
   std::array<double, 5> levels;  ///< The amounts of level 1 to 5.
   const char* reason;            ///< Why these levels.
+  int least = 0;                 ///< If not 0, amounts are whole numbers from this one on.
 };
 
 /// A kind by its name, and how much of it.

@@ -9,7 +9,7 @@ namespace glocal::disturbed {
 namespace {
 
 /// Names the streams of random numbers of a drive.
-enum Stream : std::uint64_t { of_drive, of_sample };
+enum Stream : std::uint64_t { of_drive, of_sample, of_outer };
 
 }  // namespace
 
@@ -26,6 +26,9 @@ void describe(ParamVisitor& v, DisturbedDrive::Params& p) {
 
 DisturbedDrive::DisturbedDrive(const Params& params, const SourceSetup& setup)
     : source_(params.sources->make(params.source, setup)), rng_(setup.seed) {
+  // What is disturbed twice is not so by the same numbers.
+  if (const auto* inner = dynamic_cast<const DisturbedDrive*>(source_.get()))
+    rng_ = inner->rng_.stream({of_outer});
   for (const ChosenDisturbance& chosen : params.by) {
     const DisturbanceKind& kind = kind_named(chosen.kind, disturbance_kinds());
     disturbances_.push_back(kind.make(chosen.amount_of(kind), rng_.stream({of_drive, disturbances_.size()})));

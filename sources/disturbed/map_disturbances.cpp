@@ -111,7 +111,7 @@ void shift_furniture(MapData& map, double share, Rng& rng) {
 void leave_legs(MapData& map, double share, Rng& rng) {
   constexpr double leg = 0.1;  // m
   OccupancyGrid& grid = map.grid;
-  const auto cells = static_cast<int>(std::lround(leg / grid.resolution));
+  const int cells = std::max(1, static_cast<int>(std::lround(leg / grid.resolution)));
   for (const std::vector<CellAt>& component : some_furniture(grid, share, rng)) {
     const auto [least, most] = extent_of(component);
     for (const CellAt at : component) {
@@ -184,10 +184,10 @@ void cut_off(MapData& map, double share, Rng& /*rng*/) {
   keep_if(map, Cell::unknown, [&](double x, double /*y*/) { return x <= end; });
 }
 
-/// What was occupied is free, but for the cells that points lie in now.
+/// What was occupied is free, but for the cells that points lie in now. Points in space do not make cells.
 void take_cells_of_points(MapData& map) {
   OccupancyGrid& grid = map.grid;
-  if (grid.cells.empty()) return;
+  if (grid.cells.empty() || has_heights(map)) return;
   std::replace(grid.cells.begin(), grid.cells.end(), Cell::occupied, Cell::free);
   const Pose2 grid_from_map = inverse(grid.map_from_grid);
   for (std::size_t i = 0; i < map.points.size(); ++i) {
@@ -258,7 +258,7 @@ constexpr std::array map_kinds = {
                         1.0,
                         {0.1, 0.25, 0.5, 0.75, 1.0},
                         "plans have none: level 5"},
-                       true,
+                       Changes::cells,
                        take_furniture},
     MapDisturbanceKind{{"moved",
                         "share of the furniture that stands up to 2 m from where it is",
@@ -266,7 +266,7 @@ constexpr std::array map_kinds = {
                         1.0,
                         {0.1, 0.25, 0.5, 0.75, 1.0},
                         "a day, a week, a year of use"},
-                       true,
+                       Changes::cells,
                        shift_furniture},
     MapDisturbanceKind{{"other_height",
                         "share of the furniture that was mapped at the height of its legs",
@@ -274,7 +274,7 @@ constexpr std::array map_kinds = {
                         1.0,
                         {0.1, 0.25, 0.5, 0.75, 1.0},
                         "tables are four legs to one sensor and a top to another"},
-                       true,
+                       Changes::cells,
                        leave_legs},
     MapDisturbanceKind{{"brought",
                         "boxes that are gone since the map was made, on 100 square metres free",
@@ -282,7 +282,7 @@ constexpr std::array map_kinds = {
                         1000.0,
                         {1.0, 2.0, 4.0, 8.0, 16.0},
                         "16 boxes of half a square metre fill a twelfth of the floor"},
-                       true,
+                       Changes::cells,
                        bring_boxes},
     MapDisturbanceKind{{"missing_walls",
                         "share of walls that the map lacks, by blocks of 1 m",
@@ -290,7 +290,7 @@ constexpr std::array map_kinds = {
                         0.99,
                         {0.05, 0.1, 0.2, 0.35, 0.5},
                         "glass, doors, and what was never seen"},
-                       false,
+                       Changes::points,
                        drop_walls},
     MapDisturbanceKind{{"cut_off",
                         "share of the map's length along x that was never mapped",
@@ -298,7 +298,7 @@ constexpr std::array map_kinds = {
                         0.99,
                         {0.1, 0.2, 0.3, 0.4, 0.5},
                         "robots begin where nobody has mapped, too"},
-                       false,
+                       Changes::places,
                        cut_off},
     MapDisturbanceKind{{"blurred",
                         "standard deviation of a point of the map",
@@ -306,15 +306,16 @@ constexpr std::array map_kinds = {
                         10.0,
                         {0.02, 0.04, 0.06, 0.09, 0.12},
                         "as the noise of a sensor"},
-                       false,
+                       Changes::points,
                        blur},
     MapDisturbanceKind{{"coarse",
                         "by which cells are larger",
                         "",
                         100.0,
                         {2.0, 3.0, 4.0, 6.0, 8.0},
-                        "cells of 5 cm become 10 to 40 cm"},
-                       true,
+                        "cells of 5 cm become 10 to 40 cm",
+                        2},
+                       Changes::cells,
                        coarsen},
     MapDisturbanceKind{{"stretched",
                         "by which the map is too long",
@@ -323,7 +324,7 @@ constexpr std::array map_kinds = {
                         {1.0, 2.0, 3.0, 5.0, 10.0},
                         "odometry of a mapping robot; reference poses are in the true map, so the ends of "
                         "long maps cannot be right at level 5"},
-                       false,
+                       Changes::places,
                        stretch_map},
     MapDisturbanceKind{{"sheared",
                         "by which north leans to the east",
@@ -331,11 +332,15 @@ constexpr std::array map_kinds = {
                         500.0,
                         {1.0, 2.0, 3.0, 5.0, 10.0},
                         "scanned plans, and loops that closed badly"},
-                       false,
+                       Changes::places,
                        shear},
 };
 
 }  // namespace
+
+bool has_heights(const MapData& map) {
+  return std::ranges::any_of(map.points.z, [](float z) { return z != 0.0F; });
+}
 
 std::span<const MapDisturbanceKind> map_disturbance_kinds() {
   return map_kinds;

@@ -20,6 +20,7 @@ constexpr double ray_radius = 0.1;   // m, within which a hit is on a ray
 
 constexpr double reach = 8.0;       // m from the robot
 constexpr double radius = 0.25;     // m of a person
+constexpr double height = 1.75;     // m of a person, above the robot's frame
 constexpr double stride = 0.4;      // m from scan to scan
 constexpr double most_turn = 0.5;   // rad from scan to scan
 constexpr double elbow_room = 0.5;  // m between sensor and person
@@ -135,8 +136,13 @@ std::optional<Sample> People::disturb(Sample sample, Rng rng) {
     if (std::hypot(at.x, at.y) < radius + elbow_room) continue;
     for (Reading& reading : readings.all()) {
       const double bearing = readings.bearing(reading);
-      const double away = distance_along({std::cos(bearing), std::sin(bearing), 0.0}, at);
-      if (away >= reading.range) continue;
+      double away = distance_along({std::cos(bearing), std::sin(bearing), 0.0}, at);
+      if (const double rise = reading.end.z - origin.z; rise != 0.0) {
+        const double across = std::hypot(reading.end.x - origin.x, reading.end.y - origin.y);
+        if (origin.z + rise * away / across > height) continue;
+        away *= reading.range / across;
+      }
+      if (!(away < reading.range)) continue;
       readings.set_range(reading, static_cast<float>(away));
       reading.is_hit = true;
     }

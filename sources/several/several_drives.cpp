@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "glocal/rng.hpp"
+
 namespace glocal::several {
 
 void describe(ParamVisitor& v, DriveOnMap& p) {
@@ -20,8 +22,12 @@ void describe(ParamVisitor& v, SeveralDrives::Params& p) {
 }
 
 SeveralDrives::SeveralDrives(const Params& params, const SourceSetup& setup) : in_lift_(params.in_lift) {
-  for (const DriveOnMap& drive : params.drives)
-    drives_.push_back({drive.map, params.sources->make(drive.source, setup)});
+  for (const DriveOnMap& drive : params.drives) {
+    // Drives of one world are not the same drive again.
+    SourceSetup own = setup;
+    if (!drives_.empty()) own.seed = Rng(setup.seed).stream({drives_.size()}).next();
+    drives_.push_back({drive.map, params.sources->make(drive.source, own)});
+  }
 }
 
 std::optional<Sample> SeveralDrives::next() {

@@ -75,6 +75,7 @@ class SideBySide {
     const Columns columns = columns_of(map, lattice);
     if (all_.parts.empty()) begin(name, map, lattice);
     require_alike(name, map, lattice);
+    all_.resolution = std::max(all_.resolution, map.resolution);
     const int shift = all_.parts.empty() ? 0 : end_ + between() - columns.first;
     const Pose2 at{corner_.x + shift * lattice_.side, corner_.y, 0.0};
     const Pose2 common_from_map = at * inverse(lattice.map_from_lattice);
@@ -117,6 +118,13 @@ class SideBySide {
     if (std::abs(lattice.side - lattice_.side) > rounding * lattice_.side)
       fail(fmt::format("'{}' has {} of {:g} m, and '{}' of {:g} m; make them anew with the same", name,
                        to_string(lattice.kind), lattice.side, first_, lattice_.side));
+    constexpr double alike = 1.5;
+    const auto [finer, coarser] = std::minmax(map.resolution, all_.resolution);
+    if (finer > 0.0 && coarser > alike * finer)
+      fail(
+          fmt::format("points of '{}' lie {:g} m apart, and those of '{}' {:g} m; make them anew with like "
+                      "distances",
+                      name, map.resolution, first_, all_.resolution));
     if (map.normals.empty() == has_normals_)
       fail(fmt::format("only one of '{}' and '{}' has normals; give them for both, or for none", name,
                        first_));

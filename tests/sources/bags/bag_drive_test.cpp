@@ -199,6 +199,20 @@ TEST_F(Bags, AReferenceThatEndsEarlyIsTold) {
   EXPECT_THAT(warnings_, ElementsAre(HasSubstr("1 of 2 observations are without reference pose")));
 }
 
+/// As where a pose was set by hand once, and where odometry ends while the robot stands.
+TEST_F(Bags, PosesHoldOnlyNearTheirTimesThoughTheyAreAllAlike) {
+  mount({});
+  for (const int i : {0, 1, 2, 3})
+    recording_.odometry("/odom", 500 * ms * i, "odom", "base_link", Pose2{1.0, 0.0, 0.0});
+  recording_.pose("/truth", 500 * ms, "world", Pose2{3.0, 0.0, 0.0});
+  for (const int i : {1, 2, 9}) recording_.scan("/scan", 500 * ms * i, {.ranges = {2.0F}});
+  params_.reference.topic = "/truth";
+  const auto samples = read();
+  ASSERT_EQ(samples.size(), 2U);
+  EXPECT_TRUE(samples[0].map_from_robot);
+  EXPECT_FALSE(samples[1].map_from_robot);
+}
+
 TEST_F(Bags, StampsThatRunBackwardsAreToldAndLeftOut) {
   drive(1.0, 0.0, 2);
   mount({});

@@ -42,17 +42,8 @@ TEST(PoseTrack, KnowsNothingInLongGapsAndOutside) {
   EXPECT_EQ(track.at(200, 1)->x, 1.0);
 }
 
-TEST(PoseTrack, ThatIsStillHoldsAtAllTimes) {
+TEST(PoseTrack, ThatIsStillHoldsWhereItIsKnown) {
   const PoseTrack track = track_of({{100, {1.0, 0.0, 0.5}}, {900, {1.0, 0.0, 0.5}}});
-  EXPECT_TRUE(track.is_still());
-  EXPECT_EQ(track.at(5000, 1)->x, 1.0);
-}
-
-TEST(PoseTrack, ThatIsStillSoFarHoldsWhereItIsKnown) {
-  PoseTrack track;
-  track.add(100, Pose2{1.0, 0.0, 0.5});
-  track.add(900, Pose2{1.0, 0.0, 0.5});
-  track.settle(true);
   EXPECT_TRUE(track.is_still());
   EXPECT_FALSE(track.at(5000, 10'000));
   EXPECT_EQ(track.at(500, 1000)->x, 1.0);

@@ -55,6 +55,15 @@ TEST(SensorScan, RaysWithoutReturnAreFreeForAWhile) {
   EXPECT_EQ(rays_of(scan_of({inf}), {.max_range = 3.0, .free_range = 5.0}).free_ends.x[0], 3.0F);
 }
 
+TEST(SensorScan, AReadingAtTheLimitMetNothingHoweverTheLimitIsRounded) {
+  // 8.19 in single precision is less than in double precision, and 8.18 is more.
+  for (const double limit : {8.18, 8.19}) {
+    const SensorScan rays = rays_of(scan_of({static_cast<float>(limit)}), {.max_range = limit});
+    EXPECT_EQ(rays.hits.size(), 0U) << limit;
+    EXPECT_EQ(rays.free_ends.size(), 1U) << limit;
+  }
+}
+
 TEST(SensorScan, TheNarrowerLimitsHold) {
   const SensorScan rays =
       rays_of(scan_of({0.9F, 1.0F, 6.0F}), {.min_range = 1.0, .max_range = 6.0, .free_range = 0.0});

@@ -113,6 +113,20 @@ TEST(CarmenLog, TellsHitsFromRaysThatMetNothing) {
       << "never trusted beyond max_range";
 }
 
+TEST(CarmenLog, AReadingAtTheLimitMetNothingHoweverTheLimitIsRounded) {
+  for (const double limit : {8.18, 8.19}) {
+    carmen::CarmenScan reading;
+    reading.max_range = 81.9;
+    reading.ranges = {static_cast<float>(limit)};
+    carmen::LogParams params;
+    params.max_range = limit;
+    params.free_range = limit;
+    const Scan scan = carmen::robot_scan(reading, params);
+    EXPECT_EQ(scan.hits.size(), 0U) << limit;
+    EXPECT_EQ(scan.free_ends.size(), 1U) << limit;
+  }
+}
+
 TEST(CarmenLog, PlacesTheLaserOnTheRobotAndCorrectsItsYaw) {
   const test::TemporaryFolder folder;
   // The laser is 0.5 m ahead of the robot, which heads along odometry's y.

@@ -9,10 +9,14 @@
 
 #include "config/text_file.hpp"
 #include "files.hpp"
+#include "framework/pipeline/fakes.hpp"
+#include "glocal/catalog.hpp"
+#include "glocal/yaml.hpp"
 #include "samples.hpp"
 #include "sources/disturbed/disturbed_drive.hpp"
 #include "sources/disturbed/disturbed_map.hpp"
 #include "sources/disturbed/map_disturbances.hpp"
+#include "temporary_folder.hpp"
 
 namespace glocal::disturbed::disturbed_test {
 namespace {
@@ -97,6 +101,61 @@ TEST_F(Disturbed, TheSameSeedIsTheSameDrive) {
   EXPECT_EQ(ranges(1), ranges(1));
   EXPECT_NE(ranges(1), ranges(2));
   EXPECT_NEAR(static_cast<double>(ranges(1).size()), 500.0, 70.0);
+}
+
+TEST_F(Disturbed, TwiceIsByOtherNumbers) {
+  // Noise of 0.1 m within noise of 0.1 m is one of 0.14 m, not of 0.2 m.
+  Registry<ObservationSource, SourceSetup> sources{"observation_source"};
+  sources.add<Standing>("standing", "A robot that stands.");
+  const std::vector<ChosenDisturbance> noise = {{{"noise", 0, 0.1}}};
+  sources.add<DisturbedDrive>("disturbed", "Disturbed.", {}, {&sources, sources.choose("standing"), noise});
+  DisturbedDrive source({&sources, sources.choose("disturbed"), noise}, {});
+  double squared = 0.0;
+  for (const Sample& s : test::all_of(source))
+    squared += std::pow(s.observation.scan.hits.x[0] - 4.0, 2) / 1000.0;
+  EXPECT_NEAR(std::sqrt(squared), 0.1414, 0.01);
+}
+
+TEST_F(Disturbed, NumbersOfThingsAreWhole) {
+  const test::TemporaryFolder folder;
+  const auto fault = [&](const std::string& kind, double amount) {
+    return test::config_error(folder.path(), [&] {
+      ParamsOf<ChosenDisturbance> params;
+      read_yaml(folder.write("by.yaml", fmt::format("kind: {}\namount: {}\n", kind, amount)), params);
+    });
+  };
+  EXPECT_EQ(fault("repeated_scans", 2.0), "");
+  EXPECT_EQ(fault("noise", 0.3), "");
+  EXPECT_THAT(fault("repeated_scans", 0.3), HasSubstr("amount: must be a whole number of at least 2"));
+  EXPECT_THAT(fault("late_scans", 1.5), HasSubstr("amount: must be a whole number of at least 1"));
+}
+
+TEST_F(Disturbed, WhatHasHeightsIsNoPlan) {
+  const auto in_space = [](MapData map) {
+    map.points.push_back({4.0F, 2.0F, 1.0F});
+    map.free_voxels = FreeVoxels({}, 0.5);
+    map.free_voxels.add(1, 1, 1);
+    return map;
+  };
+  Registry<MapSource, SourceSetup> sources{"map_source"};
+  sources.add<test::GivenMap>("space", "Points in space.", {}, {in_space(map({{{"taken", 0, 1e-9}}}))});
+  const auto disturbed = [&](const char* kind, double amount) {
+    return DisturbedMap({&sources, sources.choose("space"), {{{kind, 0, amount}}}}, {}).load();
+  };
+  EXPECT_THAT(test::error_of([&] { return disturbed("coarse", 2.0); }), HasSubstr("points in space"));
+  EXPECT_EQ(occupied(disturbed("blurred", 0.01)), 56U) << "the plan is as it was";
+  EXPECT_FALSE(disturbed("blurred", 0.01).free_voxels.empty());
+  EXPECT_TRUE(disturbed("cut_off", 0.1).free_voxels.empty());
+}
+
+TEST_F(Disturbed, WholeMapsAreChangedOneByOne) {
+  MapData several = map({{{"taken", 0, 1e-9}}});
+  several.parts.resize(2);
+  Registry<MapSource, SourceSetup> sources{"map_source"};
+  sources.add<test::GivenMap>("several", "Two maps.", {}, {several});
+  DisturbedMap source({&sources, sources.choose("several"), {{{"stretched", 5, {}}}}}, {});
+  EXPECT_THAT(test::error_of([&] { return source.load(); }),
+              HasSubstr("disturb each of the maps of 'several'"));
 }
 
 TEST_F(Disturbed, ADriveOfWhichNothingIsLeftIsRefused) {

@@ -235,6 +235,34 @@ TEST(Surroundings, PeopleStandBeforeTheWallAndWalk) {
   EXPECT_LT(covered, 0.35);
 }
 
+/// A lidar 1 m above the floor: rays up and down meet the same upright person, and none above his head.
+TEST(Surroundings, PeopleStandUpright) {
+  Sample look;
+  look.observation.scan.origin = {0.0F, 0.0F, 1.0F};
+  const std::vector<double> rises = {-5.0, 0.0, 5.0, 40.0};  // deg
+  for (const double rise : rises) {
+    for (int k = 0; k < 360; ++k) {
+      const double angle = radians(k), flat = 20.0 * std::cos(radians(rise));
+      look.observation.scan.hits.push_back({static_cast<float>(flat * std::cos(angle)),
+                                            static_cast<float>(flat * std::sin(angle)),
+                                            static_cast<float>(1.0 + 20.0 * std::sin(radians(rise)))});
+    }
+  }
+  const Points hits = disturbed(People(1.0, Rng(1)), {look})[0].observation.scan.hits;
+  const auto away = [&](std::size_t ring, std::size_t k) {
+    return std::hypot(hits.x[360 * ring + k], hits.y[360 * ring + k]);
+  };
+  int met = 0;
+  for (std::size_t k = 0; k < 360; ++k) {
+    EXPECT_GT(away(3, k), 15.0F) << "he is not 5 m tall";
+    if (away(1, k) > 19.0F) continue;
+    ++met;
+    EXPECT_NEAR(away(0, k), away(1, k), 1e-3F);
+    EXPECT_NEAR(away(2, k), away(1, k), 1e-3F);
+  }
+  EXPECT_GT(met, 2);
+}
+
 TEST(DriveDisturbances, ReversedMotionsTakeTheWayBack) {
   const auto way = drive(1001);
   const auto left = disturbed(ReversedMotions(0.2, Rng(1)), way);

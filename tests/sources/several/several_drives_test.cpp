@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -52,6 +54,35 @@ TEST(SeveralDrives, AreSegmentsOfTheirOwnOnMapsOfTheirOwn) {
   EXPECT_EQ(maps, "00011");
   EXPECT_EQ(samples[3].observation.stamp, 100.0);
   EXPECT_EQ(samples[3].observation.odom_from_robot, Pose3(Pose2{5, 5, 1.0}));
+}
+
+/// One sample, whose stamp is the seed.
+class Seeded final : public ObservationSource {
+ public:
+  using Params = NoParams;
+  Seeded(const Params& /*params*/, const SourceSetup& setup) : seed_(static_cast<double>(setup.seed)) {}
+  std::optional<Sample> next() override {
+    if (!std::exchange(is_left_, false)) return std::nullopt;
+    return sample(seed_, Pose2{}, 0);
+  }
+
+ private:
+  double seed_;
+  bool is_left_ = true;
+};
+
+TEST(SeveralDrives, DrawNumbersOfTheirOwn) {
+  Registry<ObservationSource, SourceSetup> sources{"observation_source"};
+  sources.add<Seeded>("seeded", "Tells its seed.");
+  SeveralDrives::Params params{.sources = &sources};
+  for (const char* map : {"a", "b", "c"}) params.drives.push_back({&sources, map, sources.choose("seeded")});
+  SourceSetup setup;
+  setup.seed = 7;
+  SeveralDrives source(params, setup);
+  std::set<double> seeds;
+  for (const Sample& s : test::all_of(source)) seeds.insert(s.observation.stamp);
+  EXPECT_EQ(seeds.size(), 3U);
+  EXPECT_TRUE(seeds.contains(7.0)) << "the first draws as it would alone";
 }
 
 TEST(SeveralDrives, GoOnInALiftAsIfTheRobotHadStood) {

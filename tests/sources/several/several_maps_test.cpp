@@ -130,6 +130,23 @@ TEST(SeveralMaps, RefusesMapsThatDoNotFitTogether) {
             "same");
 }
 
+TEST(SeveralMaps, RefusesCloudsOfOtherDensitiesInEitherOrder) {
+  MapData fine = small_map({0, 0, 0});
+  fine.grid = {};
+  fine.resolution = 0.05;
+  MapData coarse = fine;
+  coarse.resolution = 0.5;
+  EXPECT_EQ(refused({fine, coarse}),
+            "error: points of 'floor 1' lie 0.5 m apart, and those of 'floor 0' 0.05 m; make them anew with "
+            "like distances");
+  EXPECT_EQ(refused({coarse, fine}),
+            "error: points of 'floor 1' lie 0.05 m apart, and those of 'floor 0' 0.5 m; make them anew with "
+            "like distances");
+  coarse.resolution = 0.06;
+  EXPECT_EQ(joined({fine, coarse}).resolution, 0.06);
+  EXPECT_EQ(joined({coarse, fine}).resolution, 0.06);
+}
+
 TEST(SeveralMaps, RefusesCellsBesideACloud) {
   MapData cloud = small_map({0, 0, 0});
   cloud.grid = {};
