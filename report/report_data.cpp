@@ -175,6 +175,7 @@ void ReportData::add_run(PageData& page, const Run& run, const std::string& name
       step_ms.insert(step_ms.end(), trial.steps->step_ms().begin(), trial.steps->step_ms().end());
     json["trials"].push_back(std::move(entry));
   }
+  json["timed_steps"] = step_ms.size();
   json["step_ms"] = drawn_times(std::move(step_ms));
   page.head["runs"].push_back(std::move(json));
 }
@@ -195,7 +196,10 @@ PageData ReportData::page_data(const std::vector<NamedRun>& runs, std::size_t ba
   head["runs"] = Json::array();
   for (std::size_t i = 0; i < runs_.size(); ++i) add_run(page, runs_[i], runs[i].name);
   if (runs_.size() < 2) return page;
-  if (is_sweep(runs)) head["sweep"] = glocal::to_json(analyse_sweep(runs));
+  if (is_sweep(runs)) {
+    const std::string setting = baseline > 0 ? sweep_of(runs)[baseline].part.setting : "";
+    head["sweep"] = glocal::to_json(analyse_sweep(runs, {}, setting));
+  }
   try {
     // Cases and seeds of one method alone have nothing to be compared with.
     if (methods_of(runs).size() > 1) head["comparison"] = glocal::to_json(compare(runs, baseline));

@@ -233,8 +233,10 @@ std::optional<std::string> why_times_differ(const NamedRun& run, const NamedRun&
     };
     return refuse(text(a), text(b));
   }
-  if (a.jobs != b.jobs) {
-    const auto text = [](const Machine& m) { return fmt::format("--jobs {}", m.jobs); };
+  if (a.jobs != b.jobs || a.jobs == 0) {
+    const auto text = [](const Machine& m) {
+      return m.jobs == 0 ? "processes of several numbers of jobs" : fmt::format("--jobs {}", m.jobs);
+    };
     return refuse(text(a), text(b));
   }
   // Caches and clocks are shared: others slow down even what only the own processor's time is counted of.

@@ -328,6 +328,8 @@ Comparison compare(const std::vector<NamedRun>& runs, std::size_t baseline_run,
   for (std::size_t m = 0; m < methods.size(); ++m) {
     comparison.methods.push_back(method_figures(runs, methods[m], m, paired, measured));
     const std::vector<bool> has_times = cells_with_times(runs, paired, m, baseline);
+    auto& medians = comparison.methods.back().medians;
+    for (std::size_t i = comparable(measured, has_times).size(); i < medians.size(); ++i) medians[i].reset();
     for (const auto& places : cases)
       comparison.methods.back().cases.push_back(case_figures(
           {paired, places, paired.results[baseline], paired.results[m], has_times}, m == baseline));

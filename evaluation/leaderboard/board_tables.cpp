@@ -39,8 +39,8 @@ std::optional<double> median_of_right(const Line& line, Value value) {
   return median_if_any(std::move(values));
 }
 
-std::string or_dash(const std::optional<double>& value, const char* unit, int digits) {
-  return value ? fmt::format("{:.{}f}{}", *value, digits, unit) : "–";
+std::string or_dash(const std::optional<double>& value, const char* format) {
+  return value ? fmt::format(fmt::runtime(format), *value) : "–";
 }
 
 std::vector<std::string> row_of(const Line& line) {
@@ -53,8 +53,8 @@ std::vector<std::string> row_of(const Line& line) {
           with_interval(line.counts.right, line.counts.starts),
           std::to_string(line.counts.undecided()),
           or_dash(median_of_right(line, [](const StartResult& s) { return static_cast<double>(s.steps); }),
-                  "", 0),
-          or_dash(median_of_right(line, [](const StartResult& s) { return s.way_m; }), " m", 1),
+                  "{:g}"),
+          or_dash(median_of_right(line, [](const StartResult& s) { return s.way_m; }), "{:.1f} m"),
           cm ? fmt::format("{:.1f} cm, {:.2f}°", *cm, *deg) : "–",
           time ? fmt::format("{:.{}f} ms", *time, *time < 10.0 ? 1 : 0) : "–"};
 }

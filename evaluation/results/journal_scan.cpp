@@ -198,6 +198,7 @@ void JournalScan::take_content(std::size_t journal, std::optional<std::uint64_t>
   const std::string_view word = next_word(rest);
   if (word == journal_words::shard) {
     const nlohmann::ordered_json json = parse_json(std::string(rest));
+    journals_[journal].host = json.at("host");
     journals_[journal].jobs = whole_number(json, "jobs");
   } else if (word == journal_words::variant) {
     const std::string identity(next_word(rest));

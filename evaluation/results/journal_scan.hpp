@@ -26,6 +26,7 @@ class JournalScan {
  public:
   struct Journal {
     std::filesystem::path file;
+    std::string host;
     std::size_t jobs = 1;    ///< Trials at once.
     bool is_closed = false;  ///< Its writer is done.
     /// Its writer is at work: the file was written, or touched, not long ago by the clock of its server.

@@ -106,6 +106,14 @@ bool has_other_values(const std::string& there, const std::string& here) {
   }
 }
 
+bool is_still(const std::string& file, const Json& hash, FileHashes& hashes) {
+  try {
+    return hashes.of(file) == hash;
+  } catch (const RunError&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 const std::string& FileHashes::of(const std::filesystem::path& file) {
@@ -186,6 +194,7 @@ Json provenance_of_run(const Catalog& catalog, const Variant& variant, const Run
 
 std::optional<std::string> why_other_run(const std::filesystem::path& folder, const std::string& effective,
                                          const Json& origin, const std::filesystem::path& experiment_file,
+                                         const std::vector<std::filesystem::path>& plugins,
                                          FileHashes& hashes) {
   if (has_other_values(content_of(folder / "effective.yaml"), effective))
     return "it is of other values (effective.yaml)";
@@ -205,10 +214,10 @@ std::optional<std::string> why_other_run(const std::filesystem::path& folder, co
   if (text_at("variant") != origin) return "it is of another part of the experiment (provenance.json)";
   const Json inputs = text_at("inputs_sha256");
   for (const auto& [file, hash] : inputs.items()) {
-    if (file == experiment_file) continue;
-    std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored) || hashes.of(file) != hash)
-      return file + " has changed since";
+    if (file != experiment_file && !is_still(file, hash, hashes)) return file + " has changed since";
+  }
+  for (const std::filesystem::path& plugin : plugins) {
+    if (!inputs.contains(plugin.string())) return "it is without " + plugin.string();
   }
   return std::nullopt;
 }

@@ -29,6 +29,8 @@ class FileHashes {
  public:
   /// Throws RunError if it cannot be read.
   [[nodiscard]] const std::string& of(const std::filesystem::path& file);
+  /// Tells the hash of what is in no file.
+  void tell(const std::string& what, std::string hash) { known_[what] = std::move(hash); }
 
  private:
   std::map<std::filesystem::path, std::string> known_;
@@ -56,12 +58,14 @@ class FileHashes {
                                                        FileHashes& hashes);
 
 /// Why results in `folder`, finished or not, are not those of a run with this effective experiment, as this
-/// part of a whole (that of origin_json()), by this very program from the same input files; none if they are.
-/// The experiment file itself may have changed: its effective values tell all of it.
+/// part of a whole (that of origin_json()), by this very program from the same input files, with these
+/// plugins among them; none if they are. The experiment file itself may have changed: its effective values
+/// tell all of it.
 [[nodiscard]] std::optional<std::string> why_other_run(const std::filesystem::path& folder,
                                                        const std::string& effective,
                                                        const nlohmann::ordered_json& origin,
                                                        const std::filesystem::path& experiment_file,
+                                                       const std::vector<std::filesystem::path>& plugins,
                                                        FileHashes& hashes);
 
 }  // namespace glocal

@@ -57,7 +57,7 @@ struct Setting {
 struct Machine {
   std::string host, cpu;
   int threads = 1;
-  std::size_t jobs = 1;  ///< Trials that ran side by side.
+  std::size_t jobs = 1;  ///< Trials that ran side by side; 0 where these were not always as many.
   /// Processors that others kept busy meanwhile, in the mean; none if not known.
   std::optional<double> others_load = {};
   friend bool operator==(const Machine&, const Machine&) = default;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
 #include <stdexcept>
 
 #include "evaluation/results/json_text.hpp"
@@ -54,6 +55,21 @@ std::vector<std::size_t> JournaledTrials::missing() const {
     if (!scan_.finished().contains(id(trial)) && !scan_.is_given_up(id(trial))) missing.push_back(trial);
   }
   return missing;
+}
+
+void JournaledTrials::tell_processes(Json& provenance) const {
+  std::set<std::string> hosts;
+  std::set<std::size_t> jobs;
+  for (std::size_t trial = 0; trial < samples_.size(); ++trial) {
+    const auto finished = scan_.finished().find(id(trial));
+    if (finished == scan_.finished().end()) continue;
+    const JournalScan::Journal& journal = scan_.journals()[finished->second.entry.journal];
+    hosts.insert(journal.host);
+    jobs.insert(journal.jobs);
+  }
+  if (hosts.empty()) return;
+  provenance["host"] = fmt::format("{}", fmt::join(hosts, ", "));
+  provenance["jobs"] = jobs.size() == 1 ? *jobs.begin() : 0;
 }
 
 std::optional<JournalEntry> JournaledTrials::take(std::size_t trial, OutputFolder& folder) const {

@@ -66,7 +66,7 @@ std::string summary_text(const nlohmann::ordered_json& s) {
   if (trials.at("right").get<int>() > 0) {
     const auto& translation = s.at("translation_error_m");
     const auto& rotation = s.at("rotation_error_deg");
-    text += fmt::format("  localized after     {:.0f} steps, {:.1f} m (median)\n",
+    text += fmt::format("  localized after     {:g} steps, {:.1f} m (median)\n",
                         median(s.at("steps_to_localize")), median(s.at("distance_to_localize_m")));
     text +=
         fmt::format("  error then          {:.3f} m, {:.2f} deg (median); {:.3f} m, {:.2f} deg (largest)\n",

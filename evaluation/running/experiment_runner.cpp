@@ -68,7 +68,12 @@ ExperimentRunner::ExperimentRunner(std::vector<Variant> variants, const fs::path
       options_(std::move(options)),
       callbacks_(std::move(callbacks)),
       out_(options_.out.empty() ? fs::path("results") / variants_.front().experiment.name : options_.out),
-      loader_(catalog, callbacks_.warn, callbacks_.progress) {}
+      loader_(catalog, callbacks_.warn, callbacks_.progress) {
+  for (const auto& [source, hash] : options_.sources) {
+    loader_.hashes().tell(source, hash);
+    options_.plugins.emplace_back(source);
+  }
+}
 
 RunResult ExperimentRunner::run() {
   const std::vector<std::string> all_names = names_of(variants_);
@@ -164,7 +169,7 @@ void ExperimentRunner::note_trials() const {
 
 std::optional<std::string> ExperimentRunner::why_other(const fs::path& folder, Variant& variant) {
   return why_other_run(folder, effective_yaml(variant.experiment, catalog_), origin_json(variant), file_,
-                       loader_.hashes());
+                       options_.plugins, loader_.hashes());
 }
 
 void ExperimentRunner::run_one(Variant& variant) {
@@ -210,10 +215,12 @@ void ExperimentRunner::run_one(Variant& variant) {
     callbacks_.trials.done(record);
   };
   const OthersLoad others_load;
-  Journal journal(journals, {}, options_.jobs);
+  Journal journal(journals, {}, std::max(options_.jobs, 1));
   const bool complete = run.run(identity, to_run, journal, callbacks, false);
   journal.close();
   scan.update();
+  trials.tell_processes(description.at("provenance"));
+  write_origin(folder, description);
   description["peak_rss_mb"] = peak_rss_mb();
   if (const auto mean = others_load.mean()) description["others_load"] = *mean;
   put_in_place(folder, variant.name, put_together(folder, description, trials, complete));

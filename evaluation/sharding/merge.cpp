@@ -80,20 +80,18 @@ std::optional<Json> VariantMerge::kept() const {
   return read_results(folder_).summary;
 }
 
-/// What journals say besides trials. Machines that have taken part are all named; memory is that of the
-/// largest process.
+/// What journals say besides trials. Memory is that of the largest process.
 Json VariantMerge::description() const {
   Json description = first_;
   Json& origin = description.at("provenance");
-  std::set<std::string> hosts, cpus;
+  trials_.tell_processes(origin);
+  std::set<std::string> cpus;
   double peak = 0.0;
   for (const JournalScan::Place& at : *places_) {
     const Json of_one = parse_json(scan_.text_at(at));
-    hosts.insert(of_one.at("provenance").at("host").get<std::string>());
     cpus.insert(of_one.at("provenance").at("cpu").get<std::string>());
     peak = std::max(peak, of_one.at("peak_rss_mb").get<double>());
   }
-  origin["host"] = fmt::format("{}", fmt::join(hosts, ", "));
   origin["cpu"] = fmt::format("{}", fmt::join(cpus, ", "));
   // Variants of the same values share what shards leave, though they have different names.
   if (!planned_.origin.is_null()) origin["variant"] = planned_.origin;

@@ -6,7 +6,7 @@ import { test } from "node:test";
 import { assertAccessibleInBoth } from "./accessible.mjs";
 import { assertTablesExplained } from "./meanings.mjs";
 import { drawn, open, skip, testsOn } from "./open.mjs";
-import { glocal, report, trialsOf, workFolder } from "./runs.mjs";
+import { glocal, report, stepsOf, trialsOf, workFolder } from "./runs.mjs";
 
 const [methods, cases, seeds] = [["paper", "indexed"], ["apartment", "office"], [1, 2]];
 const work = workFolder();
@@ -15,6 +15,13 @@ let page, folder;
 
 /** Of the runs of a method, on some cases. */
 const trials = (method, some = cases) => some.flatMap((name) => seeds.flatMap((seed) => trialsOf(join(folder, `${method}_${name}_seed-${seed}`))));
+/** Of all its runs, of which some have many more steps than others, ascending. */
+const stepTimes = (method) =>
+  cases
+    .flatMap((name) => seeds.map((seed) => join(folder, `${method}_${name}_seed-${seed}`)))
+    .flatMap((run) => trialsOf(run).flatMap(({ trial }) => stepsOf(run, trial)))
+    .map(({ stage_ms: ms }) => ms.local_map + ms.match + ms.cluster + ms.rate)
+    .sort((a, b) => a - b);
 const counted = (all, outcome) => all.filter((trial) => trial.outcome === outcome).length;
 const score = (all) => (counted(all, "right") - counted(all, "wrong")) / all.length;
 const rows = () => page.locator("#figures tbody tr");
@@ -31,10 +38,14 @@ testsOn(async () => {
 test("each method has a row over all cases and seeds, the best first", { skip }, async () => {
   const shown = await names();
   assert.deepEqual([...shown].sort(), [...methods].sort());
+  const heads = await page.locator("#figures thead th").allInnerTexts();
   for (const [i, method] of shown.entries()) {
     const all = trials(method);
     const cells = await rows().nth(i).locator("td").allInnerTexts();
     assert.deepEqual(cells.slice(0, 2), ["right", "wrong"].map((outcome) => String(counted(all, outcome))));
+    const time = Number(cells[heads.findIndex((head) => head.startsWith("time")) - 1]);
+    const times = stepTimes(method);
+    assert.ok(Math.abs(time / times[Math.floor(times.length / 2)] - 1) < 0.06, `${method}: ${time} ms`);
   }
   assert.ok(score(trials(shown[0])) >= score(trials(shown[1])));
   assert.equal(await page.locator("#run option").first().innerText().then((name) => name.startsWith(shown[0])), true);

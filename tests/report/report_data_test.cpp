@@ -64,14 +64,15 @@ class ReportDataTest : public testing::Test {
     return step_line(trial, step_record(number, {1.0, 2.0, 0.5}));
   }
 
-  [[nodiscard]] Json data(const std::vector<std::string>& names, const ReportLimits& limits = {}) const {
+  [[nodiscard]] Json data(const std::vector<std::string>& names, const ReportLimits& limits = {},
+                          std::size_t baseline = 0) const {
     ReportData data(limits);
     std::vector<NamedRun> runs;
     for (const std::string& name : names) {
       data.add(folder_ / name);
       runs.push_back({name, read_results(folder_ / name)});
     }
-    return whole(data.page_data(runs, 0));
+    return whole(data.page_data(runs, baseline));
   }
 
   /// All that is said of a folder.
@@ -133,7 +134,9 @@ TEST_F(ReportDataTest, HasTimesOfStepsInTheirOrderButNoMoreThanAreDrawn) {
   folder_.write("a/steps.jsonl", steps);
   write_summary("a", true, 1, 1000);
   fs::remove_all(folder_ / "a/maps");
-  const Json times = data({"a"})["runs"][0]["step_ms"];
+  const Json run = data({"a"})["runs"][0];
+  EXPECT_EQ(run["timed_steps"], 1000);
+  const Json times = run["step_ms"];
   ASSERT_EQ(times.size(), 200U);
   EXPECT_EQ(times.front(), 0);
   EXPECT_EQ(times.back(), 999);
@@ -231,6 +234,10 @@ TEST_F(ReportDataTest, HasWhatASweepHasTaught) {
   const Json sweep = data({"a", "b"})["sweep"];
   EXPECT_EQ(sweep["settings"].size(), 2U);
   EXPECT_EQ(sweep["effects"][0]["path"], "x.size");
+  EXPECT_EQ(sweep["chance"]["baseline"], "a");
+  const Json against_b = data({"a", "b"}, {}, 1);
+  EXPECT_EQ(against_b["sweep"]["chance"]["baseline"], "b");
+  EXPECT_EQ(against_b["comparison"]["baseline"], "b");
   // Two runs of the same part are none of one sweep, but can be shown.
   fs::copy(folder_ / "a/provenance.json", folder_ / "b/provenance.json",
            fs::copy_options::overwrite_existing);

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +27,8 @@ struct RunOptions {
   /// Files that strategies of the catalog come from. Their hashes are noted with those of all other inputs:
   /// where one has changed, an unfinished run is not gone on with.
   std::vector<std::filesystem::path> plugins = {};
+  /// The same for what is in no file: a hash by a name of it.
+  std::map<std::string, std::string> sources = {};
   std::string command = {};  ///< How the user asked for the run, for its record.
 };
 

@@ -79,7 +79,18 @@ function median(values: number[]): number | null {
 export const ofRight = (value: (trial: Trial) => number | undefined) => ({ trials }: Pick<Group, "trials">): number[] =>
   trials.flatMap((trial) => (trial.outcome === "right" ? (value(trial) ?? []) : []));
 
-export const stepTimes = ({ runs }: Group): number[] => runs.flatMap((run) => run.step_ms ?? []);
+/** As many of a run as it has of all steps: each tells some of its times only. */
+export function stepTimes({ runs }: Pick<Group, "runs">): number[] {
+  const shares = runs.flatMap(({ step_ms = [], timed_steps }) => (step_ms.length > 0 ? step_ms.length / (timed_steps ?? step_ms.length) : []));
+  const share = Math.min(...shares);
+  return runs.flatMap(({ step_ms = [], timed_steps }) => spread(step_ms, Math.round(share * (timed_steps ?? step_ms.length))));
+}
+
+/** So many of some values, equally far apart in their order, with both ends. */
+function spread(values: number[], wanted: number): number[] {
+  const count = Math.min(values.length, Math.max(wanted, 1));
+  return Array.from({ length: count }, (_, i) => values[count < 2 ? Math.floor(values.length / 2) : Math.round((i * (values.length - 1)) / (count - 1))]);
+}
 
 export function answerOf(group: Group): Answer {
   const of = (outcome: Trial["outcome"]): number => group.trials.filter((trial) => trial.outcome === outcome).length;

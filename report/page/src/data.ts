@@ -201,6 +201,8 @@ export interface Run {
   trials: Trial[];
   /** Wall-clock times of steps, ascending: all, or as many as distributions are drawn from. Absent while the run goes on. */
   step_ms?: number[];
+  /** How many steps these are of. */
+  timed_steps?: number;
 }
 
 /** What is known of square cells: row 0 has the lowest y of the grid's frame. */

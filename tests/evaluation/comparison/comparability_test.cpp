@@ -96,6 +96,8 @@ TEST_F(Comparability, TellsOfTimesTakenSideBySideAndUnderAnotherLoad) {
                           "others kept 1.0 processors busy."));
   b().machine.jobs = 2;
   EXPECT_THAT(warnings(), ElementsAre("Times of b and a are not compared: --jobs 2, and --jobs 1."));
+  runs_[0].results.machine.jobs = b().machine.jobs = 0;
+  EXPECT_THAT(warnings(), ElementsAre(HasSubstr("processes of several numbers of jobs, and")));
 }
 
 TEST_F(Comparability, TellsOfTrialsThatReachTheNextStart) {

@@ -40,7 +40,7 @@ TEST(Agreement, IsNotAskedAcrossDrives) {
   EXPECT_THAT(agreement.disagree_at_m, IsEmpty());
 }
 
-std::string text_of(const char* trials) {
+nlohmann::ordered_json summary_with(const char* trials) {
   nlohmann::ordered_json summary = nlohmann::ordered_json::parse(R"({"name": "n", "seed": 1, "complete": true,
       "success_rate": {"value": 0.0, "low": 0.0, "high": 0.1}, "after_declaration": {"steps": 0},
       "steps_to_localize": {"median": 1}, "distance_to_localize_m": {"median": 1},
@@ -48,7 +48,17 @@ std::string text_of(const char* trials) {
       "step_ms": {"median": 1, "p95": 1}, "stage_ms": {"match": {"median": 1}},
       "map": {"build_ms": 1, "index_ms": 1}})");
   summary["trials"] = nlohmann::ordered_json::parse(trials);
-  return summary_text(summary);
+  return summary;
+}
+
+std::string text_of(const char* trials) {
+  return summary_text(summary_with(trials));
+}
+
+TEST(Summary, TellsAHalfOfAStep) {
+  nlohmann::ordered_json summary = summary_with(R"({"count": 2, "right": 2, "wrong": 0, "undecided": 0})");
+  summary["steps_to_localize"]["median"] = 26.5;
+  EXPECT_THAT(summary_text(summary), HasSubstr("localized after     26.5 steps, 1.0 m (median)"));
 }
 
 TEST(Agreement, IsToldInPlaceOfSuccess) {

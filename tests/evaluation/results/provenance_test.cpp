@@ -52,10 +52,13 @@ TEST(WhyOtherRun, NamesWhatHasChanged) {
   FileHashes hashes;
   auto record = provenance(Catalog(), 1, {input, experiment}, hashes);
   folder.write("effective.yaml", "values");
+  std::vector<std::filesystem::path> plugins;
+  std::string typed_in = "code";
   const auto why = [&](const std::string& effective) {
     folder.write("provenance.json", record.dump());
     FileHashes now;
-    return why_other_run(input.parent_path(), effective, {}, experiment, now).value_or("");
+    now.tell("the clusterer 'mine'", typed_in);
+    return why_other_run(input.parent_path(), effective, {}, experiment, plugins, now).value_or("");
   };
   EXPECT_EQ(why("values"), "");
   EXPECT_EQ(why("other values"), "it is of other values (effective.yaml)");
@@ -72,6 +75,13 @@ TEST(WhyOtherRun, NamesWhatHasChanged) {
   folder.write("clouds/1.pcd", "");
   EXPECT_EQ(why("values"), clouds.string() + " has changed since");
   std::filesystem::remove(clouds / "1.pcd");
+  plugins.emplace_back("the clusterer 'mine'");
+  EXPECT_EQ(why("values"), "it is without the clusterer 'mine'");
+  record["inputs_sha256"]["the clusterer 'mine'"] = "code";
+  EXPECT_EQ(why("values"), "");
+  typed_in = "other code";
+  EXPECT_EQ(why("values"), "the clusterer 'mine' has changed since");
+  typed_in = "code";
   record["program_sha256"]["library"] = "another";
   EXPECT_EQ(why("values"), "it is of another build of the program");
 }
@@ -98,7 +108,7 @@ TEST(WhyOtherRun, TheSameValuesForAnotherPartAreAnotherRun) {
   folder.write("provenance.json", record.dump());
   folder.write("effective.yaml", "values");
   const auto why = [&] {
-    return why_other_run(folder.path(), "values", origin_json(variant), folder.path() / "e.yaml", hashes)
+    return why_other_run(folder.path(), "values", origin_json(variant), folder.path() / "e.yaml", {}, hashes)
         .value_or("");
   };
   EXPECT_EQ(why(), "");
@@ -112,7 +122,7 @@ TEST(WhyOtherRun, CommentsAreNoValuesButWhatStandsInQuotesIs) {
   folder.write("provenance.json", provenance(Catalog(), 1, {}, hashes).dump());
   folder.write("effective.yaml", "epsilon: auto  # 0.1 m here\npath: \"/a  # b\"\n");
   const auto why = [&](const std::string& effective) {
-    return why_other_run(folder.path(), effective, {}, folder.path() / "e.yaml", hashes).value_or("");
+    return why_other_run(folder.path(), effective, {}, folder.path() / "e.yaml", {}, hashes).value_or("");
   };
   EXPECT_EQ(why("epsilon: auto\npath: \"/a  # b\"\n"), "");
   EXPECT_EQ(why("epsilon: auto\npath: \"/a  # c\"\n"), "it is of other values (effective.yaml)");

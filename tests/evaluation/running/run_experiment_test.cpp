@@ -110,6 +110,32 @@ TEST_F(RunExperiment, IsStoppedAndGoneOnWith) {
   EXPECT_EQ(begun.finished, 2U);
   EXPECT_EQ(whole.variants.front().trials, begun.trials);
   EXPECT_THAT(notes, ElementsAre(HasSubstr("goes on where an earlier run has stopped: 2 of ")));
+  EXPECT_EQ(read_results(folder_.path() / "out").machine.jobs, 1U);
+}
+
+TEST_F(RunExperiment, TellsThatItsTrialsRanSideBySideAtTimes) {
+  bool is_begun = false;
+  RunObserver observer;
+  observer.trial = [&](const TrialEnd&) { is_begun = true; };
+  observer.stop = [&] { return is_begun; };
+  EXPECT_FALSE(run(to("out"), observer).complete);
+  RunOptions options = to("out");
+  options.jobs = 2;
+  EXPECT_TRUE(run(options).complete);
+  EXPECT_EQ(read_results(folder_.path() / "out").machine.jobs, 0U);
+}
+
+TEST_F(RunExperiment, WhatIsInNoFileIsAnInput) {
+  write_experiment("variants: {list: {one: {}}}\n");
+  RunOptions options = to("all");
+  options.sources = {{"the clusterer 'mine'", "code"}};
+  EXPECT_TRUE(run(options).complete);
+  EXPECT_EQ(read_results(folder_.path() / "all/one").provenance["inputs_sha256"]["the clusterer 'mine'"],
+            "code");
+  EXPECT_TRUE(run(options).complete);
+  options.sources.begin()->second = "other code";
+  EXPECT_THAT(config_error(folder_.path(), [&] { static_cast<void>(run(options)); }),
+              HasSubstr("the clusterer 'mine' has changed since"));
 }
 
 TEST_F(RunExperiment, RunsVariantsInTheOrderOfTheFile) {
