@@ -142,7 +142,7 @@ class Experiment:
             list(only),
             jobs,
             force,
-            [str(file) for file in strategies.sources()],
+            strategies.sources(),
             counted.begin,
             counted.trial,
             say,

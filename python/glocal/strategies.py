@@ -20,6 +20,7 @@ from __future__ import annotations
 
 import collections.abc
 import dataclasses
+import hashlib
 import importlib.util
 import inspect
 import itertools
@@ -184,6 +185,9 @@ class VerdictRule(_Stage):
     def refute(self, verification: Verification) -> None:
         """The pose that judge() has just declared has a rival, or lacks its certificate."""
 
+    def withhold(self) -> None:
+        """It is not told, for what the rule does not know of: the robot's set-up, or that it is off the map."""
+
 
 class Verifier(_Stage):
     """Looks on the whole map for rivals of a pose that is about to be declared."""
@@ -266,6 +270,7 @@ class _Registered:
     make: Callable[[dict[str, Any], Any], Any]
     make_params: Callable[..., Any] | None
     source: pathlib.Path | None
+    hash: str  # of what it does, where that is in no file
 
 
 def _core_type(hint: Any) -> tuple[str, list[str]]:
@@ -313,9 +318,25 @@ def _fields_of(params: type | None) -> list[_Field]:
 
 def _source_of(strategy: type) -> pathlib.Path | None:
     try:
-        return pathlib.Path(inspect.getfile(strategy)).resolve()
+        source = pathlib.Path(inspect.getfile(strategy)).resolve()
     except (TypeError, OSError):  # of a notebook, or typed in
         return None
+    return source if source.is_file() else None
+
+
+def _told(value: Any) -> str:
+    """What a function does, with the values that it has in it; of others what they are."""
+    function = getattr(value, "__func__", getattr(value, "fget", value))
+    code = value if isinstance(value, types.CodeType) else getattr(function, "__code__", None)
+    if code is not None:
+        return repr((code.co_code, code.co_names, [_told(constant) for constant in code.co_consts]))
+    return repr(sorted(value, key=repr)) if isinstance(value, frozenset) else repr(value)
+
+
+def _hash_of(strategy: type, fields: list[_Field]) -> str:
+    """Of its methods, its values and its parameters."""
+    members = {name: _told(member) for name, member in vars(strategy).items() if callable(member) or not name.startswith("__")}
+    return hashlib.sha256(repr((sorted(members.items()), fields)).encode()).hexdigest()
 
 
 def _first_sentence(text: str | None) -> str:
@@ -354,6 +375,7 @@ def _registered_as(name: str, strategy: type[_Strategy]) -> _Registered:
         make=make,
         make_params=make_params if hasattr(params, "__post_init__") else None,
         source=_source_of(strategy),
+        hash=_hash_of(strategy, fields),
     )
 
 
@@ -381,11 +403,21 @@ def register(name: str) -> Callable[[_S], _S]:
         raise ValueError(f"'{name}' cannot be a strategy's name: letters, digits and underscores make one up")
 
     def decorate(strategy: _S) -> _S:
-        global _version
         entry = _registered_as(name, strategy)
-        into = _registered if _of_plugin is None else _of_plugin
-        into[entry.kind, name] = entry
-        _version = next(_versions)
+        key = entry.kind, name
+        if _of_plugin is not None:
+            _of_plugin[key] = entry
+            return strategy
+        before = _registered.get(key)
+        _registered[key] = entry
+
+        def undo() -> None:
+            if before is None:
+                del _registered[key]
+            else:
+                _registered[key] = before
+
+        _renew(undo)
         return strategy
 
     return decorate
@@ -396,19 +428,24 @@ def load_plugin(file: str | pathlib.Path) -> None:
 
     Results of runs name it, so that the program can load it again.
     """
-    global _version
     path = str(pathlib.Path(file).resolve())
     if path not in _plugin_files:
         _plugin_files.append(path)
-        _version = next(_versions)
-        try:
-            from glocal import _core
+        _renew(lambda: _plugin_files.remove(path))
 
-            _core.list_strategies()
-        except ConfigError:
-            _plugin_files.remove(path)
-            _version = next(_versions)
-            raise
+
+def _renew(undo: Callable[[], None]) -> None:
+    """Has the core take what there is now. Where it does not, what was added is undone."""
+    global _version
+    from glocal import _core
+
+    _version = next(_versions)
+    try:
+        _core.list_strategies()
+    except Exception:
+        undo()
+        _version = next(_versions)
+        raise
 
 
 # What the core asks for.
@@ -427,9 +464,12 @@ def plugin_files() -> list[str]:
     return list(_plugin_files)
 
 
-def sources() -> list[pathlib.Path]:
-    """Files that registered classes are written in."""
-    return sorted({entry.source for entry in _registered.values() if entry.source and entry.source.is_file()})
+def sources() -> list[tuple[str, str, str]]:
+    """Of each registered class: its name, and the file that it is written in; without one what it is called, and a hash."""
+    return [
+        (entry.name, str(entry.source), "") if entry.source else (entry.name, f"the {entry.kind} '{entry.name}'", entry.hash)
+        for entry in _registered.values()
+    ]
 
 
 def execute(file: str) -> list[_Registered]:

@@ -3,9 +3,15 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
+#include <atomic>
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <thread>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -33,13 +39,17 @@ auto calling(py::handle function) {
   };
 }
 
+/// Of a registered class: its name as a strategy, its file, or what it is called and its hash.
+using Source = std::tuple<std::string, std::string, std::string>;
+
 /// An experiment file with its overrides, read, and all its variants.
 class File {
  public:
-  File(const fs::path& file, const py::list& overrides)
-      : session_(current_session()), file_(file), overrides_(overrides_of(overrides)) {
+  File(const fs::path& file, const py::list& overrides) : file_(file), overrides_(overrides_of(overrides)) {
+    const std::vector<FilePath> plugins = read_plugins(file_, overrides_);
+    session_ = plugins.empty() ? current_session() : new_session();
     const py::gil_scoped_release others_may;
-    for (const FilePath& plugin : read_plugins(file_, overrides_)) session_->plugins.load(plugin.resolved);
+    for (const FilePath& plugin : plugins) session_->plugins.load(plugin.resolved);
     variants_ = read_variants(file_, overrides_, session_->catalog);
     for (Variant& variant : variants_) variant.experiment.plugins = session_->plugins.named();
   }
@@ -58,7 +68,7 @@ class File {
   }
 
   /// The folder and whether it is complete.
-  [[nodiscard]] std::pair<fs::path, bool> run(RunOptions options, const std::vector<std::string>& sources,
+  [[nodiscard]] std::pair<fs::path, bool> run(RunOptions options, const std::vector<Source>& sources,
                                               const py::object& on_begin, const py::object& on_trial,
                                               const py::object& on_text) const {
     options.plugins = session_->plugins.loaded();
@@ -66,7 +76,14 @@ class File {
     options.plugins.emplace_back(py::module_::import("glocal._core").attr("__file__").cast<std::string>());
     const py::object words = py::module_::import("sys").attr("orig_argv");
     options.command = py::module_::import("shlex").attr("join")(words).cast<std::string>();
-    options.plugins.insert(options.plugins.end(), sources.begin(), sources.end());
+    for (const auto& [strategy, source, hash] : sources) {
+      if (!is_used(strategy)) continue;
+      if (hash.empty()) {
+        options.plugins.emplace_back(source);
+      } else {
+        options.sources[source] = hash;
+      }
+    }
     RunObserver observer;
     observer.begin = [begin = calling<std::string, std::size_t, std::size_t>(on_begin)](
                          const VariantBegin& v) { begin(v.name, v.trials, v.finished); };
@@ -103,6 +120,14 @@ class File {
   }
 
  private:
+  /// Whether a strategy of this name may take part.
+  [[nodiscard]] bool is_used(const std::string& strategy) const {
+    return std::ranges::any_of(variants_, [&](const Variant& variant) {
+      Experiment experiment = variant.experiment;
+      return effective_yaml(experiment, session_->catalog).find(strategy) != std::string::npos;
+    });
+  }
+
   std::shared_ptr<Session> session_;
   fs::path file_;
   std::vector<Override> overrides_;
@@ -145,31 +170,51 @@ class BoundLocalizer {
   Seen<StepResult> step(const Seen<Observation>& observation) {
     const Observation& given = *observation;
     const py::gil_scoped_release others_may;
-    const std::lock_guard lock(one_at_a_time_);
+    const Turn turn(*this);
     return Seen<StepResult>(localizer_->step(given));
   }
   Seen<StepResult> go_on(std::optional<std::size_t> looks) {
     const py::gil_scoped_release others_may;
-    const std::lock_guard lock(one_at_a_time_);
+    const Turn turn(*this);
     return Seen<StepResult>(looks ? localizer_->go_on(*looks) : localizer_->go_on());
   }
   void reset(std::uint64_t trial) {
     const py::gil_scoped_release others_may;
-    const std::lock_guard lock(one_at_a_time_);
+    const Turn turn(*this);
     localizer_->reset(trial);
   }
   /// As it is now: it changes with the next step.
   [[nodiscard]] Seen<LocalMap> local_map() {
     const py::gil_scoped_release others_may;
-    const std::lock_guard lock(one_at_a_time_);
+    const Turn turn(*this);
     return Seen<LocalMap>(LocalMap(localizer_->local_map()));
   }
   [[nodiscard]] std::shared_ptr<GlobalMap> map() const { return std::const_pointer_cast<GlobalMap>(map_); }
 
  private:
+  /// Other threads wait for it. A strategy that asks the localizer which it works for would do so for ever.
+  class Turn {
+   public:
+    explicit Turn(BoundLocalizer& localizer) : localizer_(localizer) {
+      if (localizer.at_work_ == std::this_thread::get_id())
+        throw std::runtime_error(
+            "a strategy cannot ask the localizer that it works for; it gets what it may know as arguments");
+      lock_ = std::unique_lock(localizer.one_at_a_time_);
+      localizer.at_work_ = std::this_thread::get_id();
+    }
+    ~Turn() { localizer_.at_work_ = std::thread::id(); }
+    Turn(const Turn&) = delete;
+    Turn& operator=(const Turn&) = delete;
+
+   private:
+    BoundLocalizer& localizer_;
+    std::unique_lock<std::mutex> lock_;
+  };
+
   std::shared_ptr<Session> session_;
   std::shared_ptr<const GlobalMap> map_;
   std::mutex one_at_a_time_;
+  std::atomic<std::thread::id> at_work_ = {};
   std::unique_ptr<Localizer> localizer_;
 };
 
@@ -190,7 +235,7 @@ std::unique_ptr<BoundLocalizer> localizer_with(const std::shared_ptr<GlobalMap>&
 
 void bind_experiments(py::module_& module) {
   py::class_<BoundLocalizer>(module, "CoreLocalizer")
-      .def(py::init(&localizer_with), py::arg("map"), py::arg("overrides"), py::arg("seed"),
+      .def(py::init(&localizer_with), py::arg("map").none(false), py::arg("overrides"), py::arg("seed"),
            py::arg("threads"))
       .def("step", &BoundLocalizer::step, py::arg("observation"))
       .def("go_on", &BoundLocalizer::go_on, py::arg("looks") = std::nullopt)
@@ -205,7 +250,7 @@ void bind_experiments(py::module_& module) {
       .def(
           "run",
           [](const File& file, const std::string& out, const std::vector<std::string>& only, int jobs,
-             bool force, const std::vector<std::string>& sources, const py::object& on_begin,
+             bool force, const std::vector<Source>& sources, const py::object& on_begin,
              const py::object& on_trial, const py::object& on_text) {
             return file.run({.out = out, .only = only, .jobs = jobs, .force = force}, sources, on_begin,
                             on_trial, on_text);
@@ -214,7 +259,7 @@ void bind_experiments(py::module_& module) {
           py::arg("on_begin"), py::arg("on_trial"), py::arg("on_text"))
       .def("load_map", &load_map_of)
       .def("load_samples", &load_samples_of)
-      .def("localizer", &localizer_of, py::arg("map"));
+      .def("localizer", &localizer_of, py::arg("map").none(false));
 }
 
 }  // namespace glocal::python

@@ -1,13 +1,11 @@
 // Ctrl-C while the core works, and Python cannot look.
 #pragma once
 
-#include <csignal>
-
 namespace glocal::python {
 
-/// For as long as it lives, the first SIGINT is only noted: whoever works asks, and ends after the step that
-/// is under way. The second one ends the process at once, as in the program. Does nothing in a process that
-/// ignores SIGINT.
+/// For as long as one lives, in any thread, the first SIGINT is only noted: whoever works asks, and ends
+/// after the step that is under way. The second one ends the process at once, as in the program. Does nothing
+/// in a process that ignores SIGINT.
 class Interrupts {
  public:
   Interrupts();
@@ -16,9 +14,6 @@ class Interrupts {
   Interrupts& operator=(const Interrupts&) = delete;
 
   [[nodiscard]] bool happened() const;
-
- private:
-  struct sigaction before_ {};
 };
 
 }  // namespace glocal::python

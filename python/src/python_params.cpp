@@ -33,6 +33,18 @@ FieldValue value_of(const std::string& type, const py::handle& value) {
   return files;
 }
 
+FieldValue initial_of(const py::handle& registered) {
+  const auto type = registered.attr("type").cast<std::string>();
+  const py::object initial = registered.attr("default");
+  try {
+    return value_of(type, initial);
+  } catch (const py::cast_error&) {
+    throw py::type_error(fmt::format("the default of the parameter '{}', {}, is no {}",
+                                     registered.attr("name").cast<std::string>(),
+                                     py::repr(initial).cast<std::string>(), type));
+  }
+}
+
 std::unique_ptr<const Field> read_field(const py::handle& registered) {
   const auto text = [&](const char* name) { return registered.attr(name).cast<std::string>(); };
   const auto number = [&](const char* name) { return registered.attr(name).cast<double>(); };
@@ -40,7 +52,7 @@ std::unique_ptr<const Field> read_field(const py::handle& registered) {
                                              .doc = text("doc"),
                                              .unit = text("unit"),
                                              .info = {.doc = ""},
-                                             .initial = value_of(text("type"), registered.attr("default"))});
+                                             .initial = initial_of(registered)});
   FieldInfo& info = field->info;
   info.doc = Doc::at_run_time(field->doc);
   info.unit = field->unit.c_str();
@@ -76,7 +88,7 @@ py::object as_python(const FieldValue& value) {
 }  // namespace
 
 std::shared_ptr<const PythonStrategy> read_strategy(const py::object& registered) {
-  auto strategy = std::make_shared<PythonStrategy>();
+  auto strategy = std::make_shared<PythonStrategy>(registered.attr("make"), registered.attr("make_params"));
   strategy->kind = registered.attr("kind").cast<std::string>();
   strategy->name = registered.attr("name").cast<std::string>();
   strategy->doc = registered.attr("doc").cast<std::string>();
@@ -85,8 +97,6 @@ std::shared_ptr<const PythonStrategy> read_strategy(const py::object& registered
                        .upright = motions.contains("upright"),
                        .free = motions.contains("free")};
   for (const py::handle& field : registered.attr("fields")) strategy->fields.push_back(read_field(field));
-  strategy->make = registered.attr("make").cast<py::object>().release();
-  strategy->make_params = registered.attr("make_params").cast<py::object>().release();
   return strategy;
 }
 
@@ -105,9 +115,9 @@ void PythonParams::visit(ParamVisitor& visitor) {
 /// The dataclass itself may have rules that span fields.
 void PythonParams::check(ParamVisitor& visitor) const {
   const py::gil_scoped_acquire gil;
-  if (strategy_->make_params.is_none()) return;
+  if ((*strategy_->make_params).is_none()) return;
   try {
-    strategy_->make_params(**values());
+    (*strategy_->make_params)(**values());
   } catch (const py::error_already_set& error) {
     if (!error.matches(PyExc_ValueError)) throw std::runtime_error(told(error));
     visitor.require(false, strategy_->fields.front()->name, py::str(error.value()).cast<std::string>());

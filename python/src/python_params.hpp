@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -28,15 +29,38 @@ struct Field {
   FieldValue initial;
 };
 
+/// An object of Python that any thread may drop; after the end of the interpreter nobody can.
+class Held {
+ public:
+  explicit Held(py::object object) : object_(std::move(object)) {}
+  ~Held() {
+    if (Py_IsInitialized() == 0) {
+      object_.release();
+      return;
+    }
+    const py::gil_scoped_acquire gil;
+    object_ = py::object();
+  }
+  Held(const Held&) = delete;
+  Held& operator=(const Held&) = delete;
+
+  /// The GIL is held.
+  [[nodiscard]] const py::object& operator*() const { return object_; }
+
+ private:
+  py::object object_;
+};
+
 /// A strategy in Python, as it was registered. Does not move: its fields point into it.
 struct PythonStrategy {
+  PythonStrategy(py::object makes, py::object makes_params)
+      : make(std::move(makes)), make_params(std::move(makes_params)) {}
+
   std::string kind, name, doc;
   Motions motions;
   std::vector<std::unique_ptr<const Field>> fields;
-  /// Called with the values of all fields by name, and with the setup. Stays in memory to the process's end,
-  /// as does the next one: whoever drops a strategy need not hold the GIL.
-  py::handle make;
-  py::handle make_params;  ///< Called with the values alone; None where all values go together.
+  Held make;         ///< Called with the values of all fields by name, and with the setup.
+  Held make_params;  ///< Called with the values alone; None where all values go together.
 };
 
 /// Of an object as glocal/strategies.py makes it.

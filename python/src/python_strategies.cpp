@@ -19,34 +19,12 @@
 namespace glocal::python {
 namespace {
 
-/// An object of Python that any thread may drop; after the end of the interpreter nobody can.
-class Held {
- public:
-  explicit Held(py::object object) : object_(std::move(object)) {}
-  ~Held() {
-    if (Py_IsInitialized() == 0) {
-      object_.release();
-      return;
-    }
-    const py::gil_scoped_acquire gil;
-    object_ = py::object();
-  }
-  Held(const Held&) = delete;
-  Held& operator=(const Held&) = delete;
-
-  /// The GIL is held.
-  [[nodiscard]] const py::object& operator*() const { return object_; }
-
- private:
-  py::object object_;
-};
-
 /// The strategy's object. What its constructor raises is a fault of the configuration.
 template <class Setup>
 py::object make_object(const PythonStrategy& strategy, const AnyParams& params, const Setup& setup) {
   const py::gil_scoped_acquire gil;
   try {
-    return strategy.make(dynamic_cast<const PythonParams&>(params).values(), setup);
+    return (*strategy.make)(dynamic_cast<const PythonParams&>(params).values(), setup);
   } catch (const py::error_already_set& error) {
     throw ConfigError(
         "", fmt::format("the {} '{}' cannot be made: {}", strategy.kind, strategy.name, told(error)));
@@ -272,12 +250,13 @@ class PythonVerdictRule final : public VerdictRule {
     return least_steps_([](const py::object& steps) { return steps.cast<std::size_t>(); });
   }
   void refute(const Verification& verification) override { refute_(nothing, verification); }
+  void withhold() override { withhold_(nothing); }
   void reset() override { reset_(nothing); }
 
  private:
   Held object_;
   Method judge_{object_, "judge"}, least_steps_{object_, "least_steps"}, refute_{object_, "refute"},
-      reset_{object_, "reset"};
+      withhold_{object_, "withhold"}, reset_{object_, "reset"};
 };
 
 class PythonVerifier final : public Verifier {

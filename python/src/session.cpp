@@ -53,18 +53,22 @@ Session::Session() {
   plugins.hand_over(".py", load_python_plugin);
 }
 
+std::shared_ptr<Session> new_session() {
+  auto session = std::make_shared<Session>();
+  for (const py::handle& file : registered().attr("plugin_files")())
+    session->plugins.load(file.cast<std::string>());
+  for (RegistryBase* registry : session->catalog.registries()) registry->set_origin("Python");
+  add_all(registered().attr("registered")(), session->catalog);
+  return session;
+}
+
 std::shared_ptr<Session> current_session() {
   // Never destroyed: at the end of the process Python is gone before it would be.
   static auto& session = *new std::shared_ptr<Session>;
   static long known = -1;
   const auto version = registered().attr("version")().cast<long>();
   if (session && version == known) return session;
-  auto renewed = std::make_shared<Session>();
-  for (const py::handle& file : registered().attr("plugin_files")())
-    renewed->plugins.load(file.cast<std::string>());
-  for (RegistryBase* registry : renewed->catalog.registries()) registry->set_origin("Python");
-  add_all(registered().attr("registered")(), renewed->catalog);
-  session = std::move(renewed);
+  session = new_session();
   known = version;
   return session;
 }

@@ -23,6 +23,9 @@ struct Session {
 /// That of now. Classes that are registered later, or again, are in a new one. The GIL is held.
 [[nodiscard]] std::shared_ptr<Session> current_session();
 
+/// A new one, for who loads plugins that others have nothing to do with. The GIL is held.
+[[nodiscard]] std::shared_ptr<Session> new_session();
+
 /// Runs a Python file, and adds the strategies that it registers to a catalog. The GIL need not be held.
 void load_python_plugin(const std::filesystem::path& file, Catalog& catalog);
 

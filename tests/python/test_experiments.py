@@ -194,6 +194,34 @@ def test_ctrl_c_is_pythons_again_after_a_run(room, tmp_path):
         time.sleep(1)
 
 
+def test_ctrl_c_is_pythons_again_after_runs_that_overlap(room, tmp_path):
+    second_began, first_ended = threading.Event(), threading.Event()
+
+    def tell_second(_):
+        second_began.set()
+        assert first_ended.wait(60)
+
+    second = threading.Thread(target=lambda: glocal.Experiment.load(room).run(tmp_path / "second", progress=tell_second))
+
+    def begin_second(_):
+        if not second.ident:
+            second.start()
+        assert second_began.wait(60)
+
+    glocal.Experiment.load(room).run(tmp_path / "first", progress=begin_second)
+    first_ended.set()
+    second.join()
+    with pytest.raises(KeyboardInterrupt):
+        os.kill(os.getpid(), signal.SIGINT)
+        time.sleep(1)
+
+
+def test_no_map_is_an_error(room):
+    for wrong in (lambda: glocal.Localizer(None), lambda: glocal.contact_index(None, 0.1), lambda: glocal.Localizer(None, glocal.Experiment.load(room))):
+        with pytest.raises(TypeError):
+            wrong()
+
+
 # Step by step.
 
 

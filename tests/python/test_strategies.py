@@ -1,4 +1,5 @@
 """Strategies in Python: each kind in an experiment, what of them is refused, and what the core says then."""
+import json
 import math
 import pathlib
 from dataclasses import dataclass
@@ -346,12 +347,18 @@ class BadType:
     size: complex = glocal.param(1j, "No number of ours.")
 
 
+@dataclass
+class BadDefault:
+    parts: int = glocal.param(0.5, "How many.")
+
+
 @pytest.mark.parametrize(
     "made, error",
     [
         (lambda: define(__doc__=None), "docstring"),
         (lambda: define(Params=NoDoc), "size.*what it is for"),
         (lambda: define(Params=BadType), "no type of a parameter"),
+        (lambda: define(Params=BadDefault), "default of the parameter 'parts', 0.5, is no int"),
         (lambda: define(Params=int), "dataclass"),
         (lambda: type("Made", (glocal.Rater,), {"__doc__": "Lacks all."}), "lacks the method rate"),
         (lambda: type("Made", (), {"__doc__": "Is none."}), "subclass"),
@@ -360,14 +367,30 @@ class BadType:
 def test_classes_that_cannot_be_strategies_are_refused(made, error):
     with pytest.raises(TypeError, match=error):
         glocal.register("made")(made())
+    assert "made" not in glocal.list_strategies("clusterer")
 
 
 def test_a_name_must_be_one_and_free(room):
     with pytest.raises(ValueError, match="two words"):
         glocal.register("two words")
-    glocal.register("dbscan")(define())
     with pytest.raises(Exception, match="dbscan.*already registered"):
-        glocal.Experiment.load(room)
+        glocal.register("dbscan")(define())
+    assert glocal.Experiment.load(room).name
+
+
+def test_a_strategy_that_asks_the_localizer_it_works_for_is_told_so(room):
+    class Asks(glocal.Clusterer):
+        """Asks for what the localizer has."""
+
+        def cluster(self, hypotheses, rng):
+            return np.zeros(len(hypotheses)) if localizer.local_map else None
+
+    glocal.register("asks")(Asks)
+    experiment = glocal.Experiment.load(room).with_(**{"localizer.clusterer": "asks"})
+    localizer = experiment.localizer()
+    with pytest.raises(RuntimeError, match="cannot ask the localizer that it works for"):
+        localizer.step(experiment.load_samples()[0].observation)
+    assert len(localizer.local_map.points) > 0
 
 
 def test_a_class_that_is_registered_again_takes_the_place(room):
@@ -488,11 +511,50 @@ def test_a_plugin_file_is_named_by_results_and_read_again(room, tmp_path):
     assert f'plugins: ["{CELLS}"]' in (results.folder / "effective.yaml").read_text()
 
 
-def test_an_experiment_names_its_plugins(room, tmp_path):
+def test_a_plugin_file_is_executed_once(room, tmp_path):
+    plugin, executed = tmp_path / "cells.py", tmp_path / "executed"
+    plugin.write_text(CELLS.read_text() + f"\nwith open({str(executed)!r}, 'a') as file:\n    file.write('.')\n")
+    glocal.load_plugin(plugin)
+    for _ in range(3):
+        glocal.list_strategies()
+        glocal.Experiment.load(room).with_(**{"localizer.clusterer": "cells"})
+    assert executed.read_text() == "."
+
+
+def test_an_experiment_names_its_plugins_and_others_do_not(room, tmp_path):
+    other = glocal.Experiment.load(room)
     (tmp_path / "cells.py").write_text(CELLS.read_text())
     room.write_text("plugins: [cells.py]\n" + room.read_text())
     experiment = glocal.Experiment.load(room).with_(**{"localizer.clusterer": "cells"})
     assert experiment.run(tmp_path / "out").summary()["complete"]
+    assert "cells.py" in experiment.effective_yaml()
+    assert "cells.py" not in other.run(tmp_path / "other").folder.joinpath("effective.yaml").read_text()
+    assert "cells" not in glocal.list_strategies("clusterer")
+
+
+TYPED_IN = """
+import glocal, numpy as np
+@glocal.register("typed")
+class Typed(glocal.Clusterer):
+    "Deals hypotheses out."
+    def cluster(self, hypotheses, rng):
+        return np.arange(len(hypotheses)) % {parts}
+"""
+
+
+def test_results_of_a_class_that_is_in_no_file_are_of_that_class(room, tmp_path, capfd):
+    def run_with(parts):
+        exec(TYPED_IN.format(parts=parts), {"__name__": "a_notebook"})
+        experiment = glocal.Experiment.load(room).with_(variants={"grid": {"localizer.clusterer": ["typed"]}})
+        return experiment.run(tmp_path / "out")
+
+    first = run_with(2)
+    inputs = json.loads(next(first.folder.rglob("provenance.json")).read_text())["inputs_sha256"]
+    assert "the clusterer 'typed'" in inputs
+    glocal.register("unused")(define())  # changes nothing
+    run_with(2)
+    with pytest.raises(glocal.ConfigError, match="another run: the clusterer 'typed' has changed since"):
+        run_with(3)
 
 
 @pytest.mark.parametrize(
