@@ -40,7 +40,7 @@ surfels::PreparedCloud prepared(const LocalMap& local, const Scan& latest, float
 constexpr std::size_t looks_of_surfel = 12;
 
 /// Points that are enough for the share in contact.
-constexpr std::size_t most_sampled = 1000;
+constexpr std::size_t most_sampled = 2000;
 
 SurfelIndexRule index_rule(const SurfelRansam::Params& params, const GlobalMap& map) {
   return {.voxel_size = static_cast<float>(params.voxel_size.value_or(map_voxel_size(map.resolution()))),
