@@ -80,6 +80,7 @@ std::size_t write_plain_suite(const Suite& suite, std::vector<Variant>& variants
   std::size_t n = 0;
   for_each_loaded(variants, loader, [&](std::size_t i, LoadedExperiment& loaded) {
     if (is_interrupted()) throw RunError("interrupted; nothing is left of " + out.string());
+    folder.spare(loaded.inputs);
     const Variant& variant = variants[i];
     const std::uint64_t seed = variant.experiment.seed;
     const std::string below =

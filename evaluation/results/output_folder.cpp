@@ -124,6 +124,11 @@ OutputFolder::OutputFolder(const fs::path& path, bool replace, const std::set<fs
   take_up_or_begin(inputs, takes_up);
 }
 
+void OutputFolder::spare(const std::set<fs::path>& inputs) const {
+  std::error_code ignored;
+  if (fs::exists(places_.path, ignored)) check_spares(places_.path, inputs);
+}
+
 /// What is unfinished is later than results that are not complete. What an earlier process has left may not
 /// be on the disk yet.
 void OutputFolder::take_up_or_begin(const std::set<fs::path>& inputs, const TakesUp& takes_up) {

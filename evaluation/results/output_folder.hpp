@@ -44,6 +44,9 @@ class OutputFolder {
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
 
+  /// Throws ConfigError if one of these files, too, would go with the results that are replaced.
+  void spare(const std::set<std::filesystem::path>& inputs) const;
+
   [[nodiscard]] const std::filesystem::path& path() const { return places_.path; }
   /// Where the files are before commit().
   [[nodiscard]] const std::filesystem::path& unfinished() const { return places_.unfinished; }

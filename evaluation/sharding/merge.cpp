@@ -106,6 +106,9 @@ Json VariantMerge::write(bool is_complete) const {
   const fs::path place = is_beside ? folder_ / shards_folder / "merged" : folder_;
   OutputFolder folder(place, true);
   const Json described = description();
+  std::set<fs::path> inputs;
+  for (const auto& [file, hash] : described.at("provenance").at("inputs_sha256").items()) inputs.insert(file);
+  folder.spare(inputs);
   write_origin(folder, described);
   Json summary = put_together(folder, described, trials_, is_complete);
   folder.commit();
