@@ -128,10 +128,12 @@ TEST(OutputFolder, DoesNotReplaceWhatIsRead) {
               "another folder with --out, or move that file");
   }
   EXPECT_THAT(fault(results), HasSubstr("--force would remove results, which is read"));
-  OutputFolder late(results, true);
-  EXPECT_THAT(config_error(home.path(), [&] { late.spare({results / "maps/global.pgm"}); }),
-              HasSubstr("--force would remove results/maps/global.pgm, which is read"));
-  late.spare({home / "elsewhere.pgm"});
+  {
+    const OutputFolder late(results, true);
+    EXPECT_THAT(config_error(home.path(), [&] { late.spare({results / "maps/global.pgm"}); }),
+                HasSubstr("--force would remove results/maps/global.pgm, which is read"));
+    late.spare({home / "elsewhere.pgm"});
+  }
   EXPECT_TRUE(fs::exists(results / "maps/global.pgm"));
   const OutputFolder beside(results, true,
                             {home.write("results2/map.pgm", "P5"), results / "effective.yaml"});
