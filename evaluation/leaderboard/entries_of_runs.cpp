@@ -90,6 +90,9 @@ class RunReader {
                                     run_.provenance.value("revision", ""),
                                     entry->provenance.at("revision").get<std::string>()));
     }
+    // All processors that times are of are named.
+    auto& cpu = entry->provenance.at("cpu").get_ref<std::string&>();
+    if (cpu.find(run_.machine.cpu) == std::string::npos) cpu += ", " + run_.machine.cpu;
     entry->results.push_back(std::move(result_));
   }
 

@@ -106,6 +106,18 @@ TEST_F(Leaderboard, KeepsShowsAndChecksResults) {
       << same.out;
 }
 
+TEST_F(Leaderboard, AnEntryNamesAllProcessorsThatTimesAreOf) {
+  pin();
+  run_and_add();
+  const std::string one = entry()["provenance"]["cpu"];
+  const char* second = "results/few_small_room_seed-2/provenance.json";
+  Json other = json(second);
+  other["cpu"] = "another";
+  folder_.write(second, other.dump());
+  good(run("leaderboard add --force " + file("results")));
+  EXPECT_EQ(entry()["provenance"]["cpu"], one + ", another");
+}
+
 TEST_F(Leaderboard, ACheckSaysWhichStartsEndOtherwise) {
   pin();
   run_and_add();
