@@ -1,5 +1,6 @@
 #include "python/src/python_params.hpp"
 
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 
 #include <stdexcept>

@@ -136,7 +136,7 @@ TEST_F(ReportDataTest, HasTimesOfStepsInTheirOrderButNoMoreThanAreDrawn) {
   fs::remove_all(folder_ / "a/maps");
   const Json run = data({"a"})["runs"][0];
   EXPECT_EQ(run["timed_steps"], 1000);
-  const Json times = run["step_ms"];
+  const Json& times = run["step_ms"];
   ASSERT_EQ(times.size(), 200U);
   EXPECT_EQ(times.front(), 0);
   EXPECT_EQ(times.back(), 999);

@@ -11,7 +11,6 @@ namespace {
 
 using glocal::bags::LaserScan;
 using glocal::bags::PointCloud;
-using glocal::bags::RangeLimits;
 using glocal::bags::rays_of;
 using glocal::bags::SensorScan;
 using testing::ElementsAre;
