@@ -58,8 +58,8 @@ std::vector<std::size_t> JournaledTrials::missing() const {
 }
 
 void JournaledTrials::tell_processes(Json& provenance) const {
-  std::set<std::string> hosts;
-  std::set<std::size_t> jobs;
+  std::set<std::string> hosts = {provenance.at("host")};
+  std::set<std::size_t> jobs = {provenance.at("jobs")};
   for (std::size_t trial = 0; trial < samples_.size(); ++trial) {
     const auto finished = scan_.finished().find(id(trial));
     if (finished == scan_.finished().end()) continue;
@@ -67,7 +67,6 @@ void JournaledTrials::tell_processes(Json& provenance) const {
     hosts.insert(journal.host);
     jobs.insert(journal.jobs);
   }
-  if (hosts.empty()) return;
   provenance["host"] = fmt::format("{}", fmt::join(hosts, ", "));
   provenance["jobs"] = jobs.size() == 1 ? *jobs.begin() : 0;
 }

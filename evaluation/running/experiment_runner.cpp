@@ -201,6 +201,7 @@ void ExperimentRunner::run_one(Variant& variant) {
   const JournaledTrials trials(scan, identity, run.loaded().starts);
   const std::vector<std::size_t> to_run = trials.missing();
   Json description = run.description();
+  trials.tell_processes(description.at("provenance"));
   write_origin(folder, description);
   if (variant.experiment.output.maps != "none") {
     for (const auto& [name, content] : map_files(*run.loaded().map)) folder.write(name, content);
@@ -219,8 +220,6 @@ void ExperimentRunner::run_one(Variant& variant) {
   const bool complete = run.run(identity, to_run, journal, callbacks, false);
   journal.close();
   scan.update();
-  trials.tell_processes(description.at("provenance"));
-  write_origin(folder, description);
   description["peak_rss_mb"] = peak_rss_mb();
   if (const auto mean = others_load.mean()) description["others_load"] = *mean;
   put_in_place(folder, variant.name, put_together(folder, description, trials, complete));

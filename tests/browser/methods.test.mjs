@@ -20,7 +20,7 @@ const stepTimes = (method) =>
   cases
     .flatMap((name) => seeds.map((seed) => join(folder, `${method}_${name}_seed-${seed}`)))
     .flatMap((run) => trialsOf(run).flatMap(({ trial }) => stepsOf(run, trial)))
-    .map(({ stage_ms: ms }) => ms.local_map + ms.match + ms.cluster + ms.rate)
+    .map(({ stage_ms }) => Object.values(stage_ms).reduce((sum, ms) => sum + ms, 0))
     .sort((a, b) => a - b);
 const counted = (all, outcome) => all.filter((trial) => trial.outcome === outcome).length;
 const score = (all) => (counted(all, "right") - counted(all, "wrong")) / all.length;
