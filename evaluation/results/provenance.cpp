@@ -8,7 +8,6 @@
 #include <openssl/evp.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <ctime>
 #include <fstream>
@@ -186,7 +185,7 @@ Json origin_json(const Variant& variant) {
 Json provenance_of_run(const Catalog& catalog, const Variant& variant, const RunOptions& options,
                        const std::set<std::filesystem::path>& inputs, FileHashes& hashes) {
   Json json = provenance(catalog, variant.experiment.threads, inputs, hashes);
-  json["jobs"] = std::max(options.jobs, 1);
+  json["jobs"] = options.jobs;
   json["began"] = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
   if (!options.command.empty()) json["command"] = valid_utf8(options.command);
   if (Json origin = origin_json(variant); !origin.is_null()) json["variant"] = std::move(origin);

@@ -69,6 +69,7 @@ ExperimentRunner::ExperimentRunner(std::vector<Variant> variants, const fs::path
       callbacks_(std::move(callbacks)),
       out_(options_.out.empty() ? fs::path("results") / variants_.front().experiment.name : options_.out),
       loader_(catalog, callbacks_.warn, callbacks_.progress) {
+  options_.jobs = std::max(options_.jobs, 1);
   for (const auto& [source, hash] : options_.sources) {
     loader_.hashes().tell(source, hash);
     options_.plugins.emplace_back(source);
@@ -216,7 +217,7 @@ void ExperimentRunner::run_one(Variant& variant) {
     callbacks_.trials.done(record);
   };
   const OthersLoad others_load;
-  Journal journal(journals, {}, std::max(options_.jobs, 1));
+  Journal journal(journals, {}, options_.jobs);
   const bool complete = run.run(identity, to_run, journal, callbacks, false);
   journal.close();
   scan.update();

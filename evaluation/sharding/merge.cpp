@@ -104,11 +104,10 @@ Json VariantMerge::write(bool is_complete) const {
   // place.
   const bool is_beside = planned_.name.empty() && is_shared_folder(folder_);
   const fs::path place = is_beside ? folder_ / shards_folder / "merged" : folder_;
-  OutputFolder folder(place, true);
   const Json described = description();
   std::set<fs::path> inputs;
   for (const auto& [file, hash] : described.at("provenance").at("inputs_sha256").items()) inputs.insert(file);
-  folder.spare(inputs);
+  OutputFolder folder(place, true, inputs);
   write_origin(folder, described);
   Json summary = put_together(folder, described, trials_, is_complete);
   folder.commit();

@@ -269,7 +269,7 @@ class _Registered:
     fields: list[_Field]
     make: Callable[[dict[str, Any], Any], Any]
     make_params: Callable[..., Any] | None
-    source: pathlib.Path | None
+    source: str  # the file that it is written in, or what it is called
     hash: str  # of what it does, where that is in no file
 
 
@@ -316,12 +316,12 @@ def _fields_of(params: type | None) -> list[_Field]:
     return [_field_of(field, hints[field.name]) for field in dataclasses.fields(params)]
 
 
-def _source_of(strategy: type) -> pathlib.Path | None:
+def _file_of(strategy: type) -> pathlib.Path | None:
     try:
-        source = pathlib.Path(inspect.getfile(strategy)).resolve()
+        file = pathlib.Path(inspect.getfile(strategy)).resolve()
     except (TypeError, OSError):  # of a notebook, or typed in
         return None
-    return source if source.is_file() else None
+    return file if file.is_file() else None
 
 
 def _told(value: Any) -> str:
@@ -355,6 +355,7 @@ def _registered_as(name: str, strategy: type[_Strategy]) -> _Registered:
         raise TypeError(f"{strategy.__qualname__} needs a docstring: its first sentence tells users what it does")
     params: type | None = getattr(strategy, "Params", None)
     fields = _fields_of(params)
+    file = _file_of(strategy)
 
     def make_params(**values: Any) -> Any:
         paths = {f.name for f in fields if f.type in ("path", "paths")}
@@ -374,8 +375,8 @@ def _registered_as(name: str, strategy: type[_Strategy]) -> _Registered:
         fields=fields,
         make=make,
         make_params=make_params if hasattr(params, "__post_init__") else None,
-        source=_source_of(strategy),
-        hash=_hash_of(strategy, fields),
+        source=str(file or f"the {strategy.kind} '{name}'"),
+        hash="" if file else _hash_of(strategy, fields),
     )
 
 
@@ -404,20 +405,10 @@ def register(name: str) -> Callable[[_S], _S]:
 
     def decorate(strategy: _S) -> _S:
         entry = _registered_as(name, strategy)
-        key = entry.kind, name
-        if _of_plugin is not None:
-            _of_plugin[key] = entry
-            return strategy
-        before = _registered.get(key)
-        _registered[key] = entry
-
-        def undo() -> None:
-            if before is None:
-                del _registered[key]
-            else:
-                _registered[key] = before
-
-        _renew(undo)
+        if _of_plugin is None:
+            _take(lambda: _registered.update({(entry.kind, name): entry}))
+        else:
+            _of_plugin[entry.kind, name] = entry
         return strategy
 
     return decorate
@@ -430,20 +421,23 @@ def load_plugin(file: str | pathlib.Path) -> None:
     """
     path = str(pathlib.Path(file).resolve())
     if path not in _plugin_files:
-        _plugin_files.append(path)
-        _renew(lambda: _plugin_files.remove(path))
+        _take(lambda: _plugin_files.append(path))
 
 
-def _renew(undo: Callable[[], None]) -> None:
-    """Has the core take what there is now. Where it does not, what was added is undone."""
+def _take(add: Callable[[], None]) -> None:
+    """Adds something, if the core takes it."""
     global _version
     from glocal import _core
 
+    before = dict(_registered), list(_plugin_files)
+    add()
     _version = next(_versions)
     try:
         _core.list_strategies()
     except Exception:
-        undo()
+        _registered.clear()
+        _registered.update(before[0])
+        _plugin_files[:] = before[1]
         _version = next(_versions)
         raise
 
@@ -466,10 +460,7 @@ def plugin_files() -> list[str]:
 
 def sources() -> list[tuple[str, str, str]]:
     """Of each registered class: its name, and the file that it is written in; without one what it is called, and a hash."""
-    return [
-        (entry.name, str(entry.source), "") if entry.source else (entry.name, f"the {entry.kind} '{entry.name}'", entry.hash)
-        for entry in _registered.values()
-    ]
+    return [(entry.name, entry.source, entry.hash) for entry in _registered.values()]
 
 
 def execute(file: str) -> list[_Registered]:

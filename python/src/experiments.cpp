@@ -76,8 +76,7 @@ class File {
     options.plugins.emplace_back(py::module_::import("glocal._core").attr("__file__").cast<std::string>());
     const py::object words = py::module_::import("sys").attr("orig_argv");
     options.command = py::module_::import("shlex").attr("join")(words).cast<std::string>();
-    for (const auto& [strategy, source, hash] : sources) {
-      if (!is_used(strategy)) continue;
+    for (const auto& [strategy, source, hash] : used(sources)) {
       if (hash.empty()) {
         options.plugins.emplace_back(source);
       } else {
@@ -120,12 +119,19 @@ class File {
   }
 
  private:
-  /// Whether a strategy of this name may take part.
-  [[nodiscard]] bool is_used(const std::string& strategy) const {
-    return std::ranges::any_of(variants_, [&](const Variant& variant) {
-      Experiment experiment = variant.experiment;
-      return effective_yaml(experiment, session_->catalog).find(strategy) != std::string::npos;
-    });
+  /// Those whose strategy may take part, as a variant has its name.
+  [[nodiscard]] std::vector<Source> used(std::vector<Source> sources) const {
+    std::vector<Source> used;
+    for (auto variant = variants_.begin(); variant != variants_.end() && !sources.empty(); ++variant) {
+      Experiment experiment = variant->experiment;
+      const std::string values = effective_yaml(experiment, session_->catalog);
+      const auto named = std::ranges::stable_partition(sources, [&](const Source& source) {
+        return values.find(std::get<0>(source)) == std::string::npos;
+      });
+      used.insert(used.end(), named.begin(), named.end());
+      sources.erase(named.begin(), named.end());
+    }
+    return used;
   }
 
   std::shared_ptr<Session> session_;

@@ -81,9 +81,9 @@ export const ofRight = (value: (trial: Trial) => number | undefined) => ({ trial
 
 /** As many of a run as it has of all steps: each tells some of its times only. */
 export function stepTimes({ runs }: Pick<Group, "runs">): number[] {
-  const shares = runs.flatMap(({ step_ms = [], timed_steps }) => (step_ms.length > 0 ? step_ms.length / (timed_steps ?? step_ms.length) : []));
-  const share = Math.min(...shares);
-  return runs.flatMap(({ step_ms = [], timed_steps }) => spread(step_ms, Math.round(share * (timed_steps ?? step_ms.length))));
+  const timed = runs.flatMap(({ step_ms, timed_steps }) => (step_ms?.length && timed_steps ? { step_ms, timed_steps } : []));
+  const share = Math.min(...timed.map(({ step_ms, timed_steps }) => step_ms.length / timed_steps));
+  return timed.flatMap(({ step_ms, timed_steps }) => spread(step_ms, Math.round(share * timed_steps)));
 }
 
 /** So many of some values, equally far apart in their order, with both ends. */
