@@ -5,7 +5,7 @@ import { createRequire } from "node:module";
 import { join } from "node:path";
 import { after, before } from "node:test";
 
-const browserFile = "/usr/bin/chromium";
+const browserFile = "/usr/bin/chromium-headless-shell";
 export const skip = existsSync(browserFile) ? false : "Chromium is missing; scripts/setup --browser installs it";
 
 let browser = null;

@@ -151,7 +151,7 @@ while (words.length > 0) {
   const [messages, ...options] = words.splice(0, end < 0 ? words.length : end + 1).filter((word) => word !== "--and");
   panels.push(await panel(Number(messages), options));
 }
-const browser = await chromium.launch({ executablePath: "/usr/bin/chromium", args: ["--no-sandbox", "--disable-gpu"] });
+const browser = await chromium.launch({ executablePath: "/usr/bin/chromium-headless-shell", args: ["--no-sandbox", "--disable-gpu"] });
 const page = await browser.newPage({ viewport: { width: 1120, height: 530 } });
 await page.setContent(`<style>
   body { margin: 10px; font: 15px "DejaVu Sans"; display: flex; flex-wrap: wrap; gap: 10px; background: white; }
