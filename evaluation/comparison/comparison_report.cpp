@@ -24,9 +24,6 @@ std::string points(const std::optional<Difference>& difference) {
   return fmt::format("{:+.1f} ({:+.1f} to {:+.1f})", difference->value + 0.0, difference->interval.low + 0.0,
                      difference->interval.high + 0.0);
 }
-std::string p_value(double p) {
-  return p < 0.001 ? "<0.001" : fmt::format("{:.3f}", p);
-}
 /// Of a test that is no part of its family.
 std::string p_holm(const TestResult& test) {
   return test.has_chance() ? p_value(test.p_holm) : "-";
@@ -41,9 +38,6 @@ const char* star(const TestResult& test, bool matters) {
 std::string share(const Proportion& proportion) {
   return fmt::format("{:.1f} ({:.0f}-{:.0f})", 100.0 * proportion.value, 100.0 * proportion.low,
                      100.0 * proportion.high);
-}
-std::string counted(std::size_t n, const char* what) {
-  return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
 }
 
 std::string heading(const Comparison& comparison) {

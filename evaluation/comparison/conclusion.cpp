@@ -6,14 +6,12 @@
 #include <cmath>
 #include <cstdint>
 
+#include "evaluation/results/report_blocks.hpp"
+
 namespace glocal {
 namespace {
 
 using Phrases = std::vector<std::string>;
-
-std::string p_text(double p) {
-  return p < 0.001 ? "p < 0.001" : fmt::format("p = {:.3f}", p);
-}
 
 /// "a", "a and b", "a, b and c".
 std::string enumerated(const Phrases& items) {

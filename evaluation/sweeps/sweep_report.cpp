@@ -45,15 +45,11 @@ const std::vector<std::string>& outcome_columns() {
   return columns;
 }
 
-std::string p_cell(double p) {
-  return p < 0.001 ? "<0.001" : fmt::format("{:.3f}", p);
-}
-
 /// Of the score: ahead of the baseline, at how many places better and worse, and p.
 std::vector<std::string> lead_cells(const std::optional<Lead>& lead, const ChanceOfBest& chance) {
   if (!lead) return {"", "", "", ""};
   return {fmt::format("{:+.1f}", lead_points(*lead, chance)), std::to_string(lead->places_better),
-          std::to_string(lead->places_worse), p_cell(lead->p)};
+          std::to_string(lead->places_worse), p_value(lead->p)};
 }
 
 Table settings_table(const SweepAnalysis& analysis, std::size_t most) {
@@ -104,11 +100,6 @@ std::string cases_text(const std::vector<std::string>& cases) {
   return cases.empty() ? "all runs" : join(cases);
 }
 
-/// "3 settings", "1 setting".
-std::string counted(std::size_t n, const char* what) {
-  return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
-}
-
 std::string heading(const SweepAnalysis& a) {
   const std::size_t cases = a.choose_on.size() + a.judge_on.size();
   return fmt::format("{}: {}, {}, {}{}", a.experiment, counted(a.runs, "run"),
@@ -129,9 +120,8 @@ std::string best_of(const SweepAnalysis& a) {
 
 /// "2.5 points ahead of B (better at 3 places, worse at 1; p = 0.625)".
 std::string lead_text(const Lead& lead, const std::string& other, const ChanceOfBest& chance) {
-  return fmt::format("{:.1f} points ahead of {} (better at {} places, worse at {}; p {} {})",
-                     lead_points(lead, chance), other, lead.places_better, lead.places_worse,
-                     lead.p < 0.001 ? "<" : "=", lead.p < 0.001 ? "0.001" : fmt::format("{:.3f}", lead.p));
+  return fmt::format("{:.1f} points ahead of {} (better at {} places, worse at {}; {})",
+                     lead_points(lead, chance), other, lead.places_better, lead.places_worse, p_text(lead.p));
 }
 
 std::string against_second(const SweepAnalysis& a) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <tuple>
 
 namespace glocal::iransac {
@@ -56,13 +55,6 @@ std::size_t HashedVectors::memory_bytes() const {
   std::size_t bytes = (directions_.size() + offsets_.size()) * sizeof(float);
   for (const auto& table : tables_) bytes += table.size() * sizeof(Entry);
   return bytes;
-}
-
-double HashedVectors::collision_probability(double distance, double bucket_width) {
-  const double ratio = bucket_width / distance;
-  const double normal_cdf = 0.5 * std::erfc(ratio / std::numbers::sqrt2);  // of -ratio
-  return 1.0 - 2.0 * normal_cdf -
-         2.0 / (std::sqrt(2.0 * std::numbers::pi) * ratio) * (1.0 - std::exp(-ratio * ratio / 2.0));
 }
 
 }  // namespace glocal::iransac

@@ -30,9 +30,6 @@ class HashedVectors {
 
   [[nodiscard]] std::size_t memory_bytes() const;
 
-  /// p(c) of the paper, for one projection, at a distance of c > 0.
-  [[nodiscard]] static double collision_probability(double distance, double bucket_width);
-
  private:
   struct Entry {
     std::uint64_t bucket;

