@@ -6,7 +6,7 @@ import { dirname, join } from "node:path";
 import { test } from "node:test";
 import { assertAccessibleInBoth } from "./accessible.mjs";
 import { assertTablesExplained } from "./meanings.mjs";
-import { open, skip, testsOn } from "./open.mjs";
+import { drawn, open, skip, testsOn } from "./open.mjs";
 import { glocal, program, workFolder } from "./runs.mjs";
 import { cellsOf, saved } from "./saved.mjs";
 
@@ -114,7 +114,7 @@ test("significant steps of the history are marked, and one renewal alone has no 
 
 test("nothing scrolls aside on a telephone, and all can be reached", { skip }, async () => {
   await page.setViewportSize({ width: 390, height: 800 });
-  await page.waitForTimeout(200);
+  await drawn(page);
   const wide = await page.evaluate(() => [...document.querySelectorAll("body *")].filter((e) => e.getBoundingClientRect().right > 390).map((e) => `${e.tagName} ${e.className}`));
   assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 390, wide.join(", "));
   // Links in what is unfolded below a row work, too.

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { join } from "node:path";
 import { test } from "node:test";
 import { assertTablesExplained } from "./meanings.mjs";
-import { assertQuiet, drawn, mapView, moveSlider, open, pixelsOf, skip, testsOn } from "./open.mjs";
+import { assertQuiet, drawn, hashOf, mapView, moveSlider, open, pixelsOf, skip, testsOn } from "./open.mjs";
 import { report, runExperiment, stepsOf, trialsOf, workFolder } from "./runs.mjs";
 import { cellsOf, countColours, saved, seen } from "./saved.mjs";
 import { checkNumbers } from "./steps_check.mjs";
@@ -18,12 +18,10 @@ testsOn(async () => {
   return ({ page } = await open(file));
 });
 
-const said = async (name) => new URLSearchParams(new URL(page.url()).hash.slice(1)).get(name);
 const shown = (page) => page.evaluate(() => ({ ...document.body.dataset }));
 
 test("a page that was just opened has a plain address", { skip }, async () => {
-  await page.waitForTimeout(400);
-  assert.equal(new URL(page.url()).hash, "");
+  assert.equal(await hashOf(page), "");
 });
 
 test("the address follows what is shown, and leads there again", { skip }, async () => {
@@ -34,11 +32,13 @@ test("the address follows what is shown, and leads there again", { skip }, async
   await page.locator("[data-layer=scan]").uncheck();
   await page.keyboard.press("+");
   await drawn(page);
-  await page.waitForFunction(() => location.hash.includes("zoom="));
+  const hash = await hashOf(page);
+  const { zoom, ...said } = Object.fromEntries(new URLSearchParams(hash.slice(1)));
+  assert.ok(Number(zoom) > 0);
   const expected = { run: "paper", trial: "4", step: "1", pose: "reference", hide: "scan" };
-  for (const [name, value] of Object.entries(expected)) assert.equal(await said(name), value, name);
+  for (const [name, value] of Object.entries(expected)) assert.equal(said[name], value, name);
   const view = await mapView(page);
-  const other = await open(`${file}${new URL(page.url()).hash}`);
+  const other = await open(`${file}${hash}`);
   const { run, trial, step } = await shown(other.page);
   assert.deepEqual([run, trial, step], ["paper", "4", "1"]);
   await checkNumbers(other.page, stepsOf(join(folder, "paper"), 4)[1]);
@@ -61,11 +61,12 @@ test("the address has the borders that were moved", { skip }, async () => {
   for (let i = 0; i < 4; ++i) await page.keyboard.press("ArrowRight");
   await level.focus();
   for (let i = 0; i < 15; ++i) await page.keyboard.press("ArrowDown");
-  await page.waitForFunction(() => location.hash.includes("height=860"));
-  assert.deepEqual([await said("width"), await said("height")], ["54", "860"]);
+  const hash = await hashOf(page);
+  const said = new URLSearchParams(hash.slice(1));
+  assert.deepEqual([said.get("width"), said.get("height")], ["54", "860"]);
   const moved = await size(page);
   assert.ok(moved[0] > before[0] + 50 && Math.abs(moved[1] - 860) < 3, String(moved));
-  const other = await open(`${file}${new URL(page.url()).hash}`);
+  const other = await open(`${file}${hash}`);
   (await size(other.page)).forEach((length, i) => assert.ok(Math.abs(length - moved[i]) < 2, `${length} for ${moved[i]}`));
   assert.equal(await other.page.locator(".border.vertical").getAttribute("aria-valuenow"), "54");
   // No border is moved so far that the map is gone.
@@ -107,7 +108,7 @@ test("addresses of nothing, and of parts of the page, do no harm", { skip }, asy
   const best = await page.locator("#run option").first().innerText();
   assert.deepEqual((await shown(page)).run, best);
   await page.evaluate(() => (location.hash = "trials"));
-  await page.waitForTimeout(400);
+  assert.equal(await hashOf(page), "#trials");
   assert.equal((await shown(page)).run, best);
 });
 

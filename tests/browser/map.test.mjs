@@ -6,6 +6,18 @@ import { test } from "node:test";
 import { assertQuiet, colourAt, drawn, mapView, moveSlider, open, painted, showOnly, skip, testsOn } from "./open.mjs";
 import { readPcd, report, runExperiment, stepsOf, workFolder } from "./runs.mjs";
 
+/** In the page: counts what the browser has been asked for, and has not done yet. */
+function countAsked() {
+  window.asked = 0;
+  for (const [owner, name] of [[Element.prototype, "requestFullscreen"], [Document.prototype, "exitFullscreen"]]) {
+    const work = owner[name];
+    owner[name] = function () {
+      ++window.asked;
+      return work.call(this).finally(() => --window.asked);
+    };
+  }
+}
+
 const work = workFolder();
 let folder, file, steps, page;
 
@@ -13,7 +25,10 @@ testsOn(async () => {
   folder = runExperiment("paper_simulation", join(work, "simulation"));
   file = report(join(work, "report.html"), folder);
   steps = stepsOf(folder, 0);
-  return ({ page } = await open(file, { viewport: { width: 1440, height: 900 } }));
+  const opened = await open(file, { viewport: { width: 1440, height: 900 } });
+  page = opened.page;
+  await page.evaluate(countAsked);
+  return opened;
 });
 
 /** A colour of the style sheet: red, green, blue. */
@@ -151,8 +166,11 @@ async function pressAtOnce(key, times) {
   await page.keyboard.press(key);
 }
 
-/** Whether the map has the whole window, and whether it has the whole screen. */
-const fullness = () => page.evaluate(() => [document.querySelector("main").classList.contains("full"), document.fullscreenElement !== null]);
+/** Whether the map has the whole window, and whether it has the whole screen, once the browser has followed. */
+async function fullness() {
+  await page.waitForFunction(() => window.asked === 0);
+  return page.evaluate(() => [document.querySelector("main").classList.contains("full"), document.fullscreenElement !== null]);
+}
 
 test("the map can have the whole window", { skip }, async () => {
   const width = async () => (await page.locator(".stage").boundingBox()).width;
@@ -164,6 +182,7 @@ test("the map can have the whole window", { skip }, async () => {
   assert.equal(await page.locator(".player").isVisible(), true);
   // The browser may not have followed by now.
   await page.keyboard.press("f");
+  assert.deepEqual(await fullness(), [false, false]);
   await page.waitForFunction((before) => Math.abs(document.querySelector(".stage").getBoundingClientRect().width - before) < 2, before);
 });
 
@@ -171,7 +190,6 @@ test("who changes their mind before the browser has followed gets what they want
   await page.locator(".stage canvas").focus();
   for (const times of [2, 4, 2, 4]) {
     await pressAtOnce("f", times);
-    await page.waitForTimeout(500);
     assert.deepEqual(await fullness(), [false, false], `${times} times`);
   }
 });

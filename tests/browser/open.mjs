@@ -82,6 +82,11 @@ export async function drawn(page) {
   await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
 }
 
+/** The hash of the page's address, once it has been written: a page's timers end in the order in which they are due, however slow it is. */
+export function hashOf(page) {
+  return page.evaluate(() => new Promise((resolve) => setTimeout(() => resolve(location.hash), 300)));
+}
+
 const plan = ".map:not(.space) .stage canvas";
 
 /** What the page says of its view, to find a place of the map on the screen (y up in the map, down on the screen). */

@@ -5,7 +5,7 @@ import { join } from "node:path";
 import { test } from "node:test";
 import { assertAccessibleInBoth } from "./accessible.mjs";
 import { assertTablesExplained } from "./meanings.mjs";
-import { assertQuiet, coloursAt, drawn, mapView, moveSlider, open, painted, pixelsOf, skip, testsOn } from "./open.mjs";
+import { assertQuiet, coloursAt, drawn, hashOf, mapView, moveSlider, open, painted, pixelsOf, skip, testsOn } from "./open.mjs";
 import { glocal, readPcd, report, runExperiment, stepsOf, trialsOf, workFolder } from "./runs.mjs";
 import { viridis } from "./viridis.mjs";
 
@@ -210,12 +210,10 @@ test("a link leads to what is seen, and from where", { skip }, async () => {
     await page.mouse.up();
     await page.mouse.move(box.x + box.width / 2, box.y + 5);
     await drawn(page);
-    // The address is written when all has been still for a while.
-    await page.waitForTimeout(400);
-    const address = new URL(page.url());
-    const said = new URLSearchParams(address.hash.slice(1));
+    const hash = await hashOf(page);
+    const said = new URLSearchParams(hash.slice(1));
     assert.deepEqual([said.get("view"), said.get("hide_in_space")], view === "above" ? ["above", null] : [null, "scan"]);
-    const other = await open(`${file}${address.hash}`);
+    const other = await open(`${file}${hash}`);
     await drawn(other.page);
     const [expected, found] = [await eyeOf(page), await eyeOf(other.page)];
     assert.equal(found[0], view);
@@ -226,8 +224,7 @@ test("a link leads to what is seen, and from where", { skip }, async () => {
     await other.page.close();
   }
   await look("plan");
-  await page.waitForTimeout(400);
-  const other = await open(`${file}${new URL(page.url()).hash}`);
+  const other = await open(`${file}${await hashOf(page)}`);
   assert.equal(await other.page.locator(canvas).isVisible(), false);
   assert.equal(await other.page.locator("[data-view=plan]").getAttribute("aria-pressed"), "true");
   // Without a word of it the run is seen as at first.
