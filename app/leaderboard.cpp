@@ -79,8 +79,9 @@ std::vector<BoardEntry> entries_of(const BoardOptions& options, const Suite& sui
 
 [[noreturn]] void refuse_empty(const BoardOptions& options) {
   throw ConfigError(options.folder(),
-                    fmt::format("has no results{}{} yet; glocal leaderboard add brings some",
-                                options.suite.empty() ? "" : " of ", options.suite));
+                    fmt::format("has no results{}{}{}{} yet; glocal leaderboard add brings some",
+                                options.suite.empty() ? "" : " of ", options.suite,
+                                options.methods.empty() ? "" : " by ", fmt::join(options.methods, " or ")));
 }
 
 void check_case_names(const BoardOptions& options, const Suite& suite) {

@@ -59,6 +59,7 @@ std::string fingerprint(const GlobalMap& map) {
 
 std::optional<LiveState> read_state(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file)) return std::nullopt;
+  if (std::filesystem::is_directory(file)) throw ConfigError(file, "is a folder; name a file with --state");
   try {
     std::ifstream stream(file);
     const Json json = Json::parse(stream);

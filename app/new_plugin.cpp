@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -105,6 +106,8 @@ void new_plugin(const NewPluginOptions& options, const Catalog& catalog) {
       {"LOCALIZER", localizer_with(options.kind, options.name)}};
 
   const std::string& out = options.folder();
+  if (std::filesystem::is_directory(out) && !std::filesystem::is_empty(out))
+    throw ConfigError(out, "the folder exists and is not empty; choose another one with --out");
   OutputFolder folder(out, false);
   const auto write = [&](const std::string& name, const std::string& of_template) {
     folder.append(name, filled(embedded_file(of_template), values));

@@ -63,7 +63,9 @@ double ClusterRating::rate_one(const Cluster& cluster, const std::vector<Hypothe
   const double straight = std::max(0.0, 1.0 - variance_rotation / max_variance_rotation);
   const std::vector<double>& alpha = params_.weights;
   constexpr double least = 1e-6;
-  return std::max(least, alpha[0] * share + alpha[1] * narrow + alpha[2] * straight + alpha[3] * score);
+  // The weights add up to 1, but for what is rounded.
+  return std::clamp(alpha[0] * share + alpha[1] * narrow + alpha[2] * straight + alpha[3] * score, least,
+                    1.0);
 }
 
 }  // namespace glocal::raters

@@ -220,18 +220,12 @@ Verdict StagedMargin::judge(const StepResult& step) {
   if (!goes_on || !is_usual) begin_anew();
   if (!scan_fits) begin_stages_anew();
   best_ = FollowedPose::of(step, pose);
-  ++steps_;
-  if (views_ == 0 || distance(step.local_from_robot, last_view_) > standing) {
-    ++views_;
-    last_view_ = step.local_from_robot;
-  }
-  distance_ += driven;
-  sum_of_contact_ += contact;
-
   const double margin = margin_of(step);
-  mean_margin_ += (margin - mean_margin_) / std::min(steps_, steps_of_mean_margin);
-  const bool is_clear = scan_fits && stages_.is_reached(margin, driven);
-  const bool is_clear_if_certified = scan_fits && certified_stages_.is_reached(margin, driven);
+  // A scan without a point leaves the local map as it was: the same answer again says nothing new.
+  const bool is_look = !step.saw_nothing;
+  if (is_look) count(step, margin, driven, contact);
+  const bool is_clear = scan_fits && stages_.is_reached(margin, driven, is_look);
+  const bool is_clear_if_certified = scan_fits && certified_stages_.is_reached(margin, driven, is_look);
   const std::optional<double>& violation = step.hypotheses.front().free_space_violation;
   const bool is_consistent = !violation || *violation <= params_.max_free_space_violation;
   const std::optional<double> lead = beam_lead(step.hypotheses);
@@ -257,6 +251,18 @@ Verdict StagedMargin::judge(const StepResult& step) {
   return verdict;
 }
 
+/// A step in which the best pose is the same.
+void StagedMargin::count(const StepResult& step, double margin, double driven, double contact) {
+  ++steps_;
+  if (views_ == 0 || distance(step.local_from_robot, last_view_) > standing) {
+    ++views_;
+    last_view_ = step.local_from_robot;
+  }
+  distance_ += driven;
+  sum_of_contact_ += contact;
+  mean_margin_ += (margin - mean_margin_) / std::min(steps_, steps_of_mean_margin);
+}
+
 /// Takes in how fast the robot has turned since the last step.
 bool StagedMargin::is_steady(double turn_rate_deg) {
   if (turn_rate_deg > params_.max_turn_rate_deg) {
@@ -267,7 +273,7 @@ bool StagedMargin::is_steady(double turn_rate_deg) {
   return !since_turn_ || *since_turn_ >= steady_steps;
 }
 
-bool StagedMargin::Stages::is_reached(double margin, double driven) {
+bool StagedMargin::Stages::is_reached(double margin, double driven, bool is_look) {
   bool reached = false;
   for (std::size_t i = 0; i < stages_.size(); ++i) {
     const Stage& stage = stages_[i];
@@ -276,8 +282,10 @@ bool StagedMargin::Stages::is_reached(double margin, double driven) {
       kept = {};
       continue;
     }
-    kept.distance += kept.steps > 0 ? driven : 0.0;
-    ++kept.steps;
+    if (is_look) {
+      kept.distance += kept.steps > 0 ? driven : 0.0;
+      ++kept.steps;
+    }
     reached = reached || (kept.steps >= stage.steps && kept.distance >= stage.distance);
   }
   return reached;

@@ -62,8 +62,8 @@ class StagedMargin final : public VerdictRule {
    public:
     explicit Stages(std::vector<Stage> stages) : stages_(std::move(stages)), kept_(stages_.size()) {}
     void begin_anew() { kept_.assign(stages_.size(), {}); }
-    /// Counts a step for each stage, and says whether one is reached.
-    [[nodiscard]] bool is_reached(double margin, double driven);
+    /// Counts a step for each stage, if it is a look, and says whether one is reached.
+    [[nodiscard]] bool is_reached(double margin, double driven, bool is_look);
     /// Whether not even the least margin was kept in the last step.
     [[nodiscard]] bool is_lost() const;
     /// Steps of the shortest stage; the largest number there is without any.
@@ -75,6 +75,7 @@ class StagedMargin final : public VerdictRule {
   };
   void begin_anew();
   void begin_stages_anew();
+  void count(const StepResult& step, double margin, double driven, double contact);
   [[nodiscard]] double margin_of(const StepResult& step) const;
   [[nodiscard]] bool is_steady(double turn_rate_deg);
   [[nodiscard]] Verdict localized(const StepResult& step, double margin) const;

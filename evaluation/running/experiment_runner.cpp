@@ -72,7 +72,7 @@ ExperimentRunner::ExperimentRunner(std::vector<Variant> variants, const fs::path
   options_.jobs = std::max(options_.jobs, 1);
   for (const auto& [source, hash] : options_.sources) {
     loader_.hashes().tell(source, hash);
-    options_.plugins.emplace_back(source);
+    if (source != file_) options_.plugins.emplace_back(source);
   }
 }
 

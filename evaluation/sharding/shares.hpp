@@ -17,6 +17,7 @@ struct Shard {
 struct PlannedTrial {
   std::size_t variant = 0;
   std::size_t trial = 0;
+  // NOLINTNEXTLINE(modernize-use-nullptr)
   friend auto operator<=>(const PlannedTrial&, const PlannedTrial&) = default;
 };
 

@@ -77,12 +77,16 @@ SettingValues unfolded(const SettingValues& written) {
   return values;
 }
 
-std::optional<std::string> strategy_as_run(const std::string& choice,
-                                           const std::map<std::string, Setting>& effective) {
-  const auto below = effective.lower_bound(choice + ".");
-  if (below != effective.end() && below->first.starts_with(choice + "."))
-    return strategy_in(below->first, choice);
-  const auto itself = effective.find(choice);
+/// The value of a parameter, or the strategy of a choice; none for a parameter of a strategy that did not
+/// run.
+std::optional<std::string> value_as_run(const std::string& path,
+                                        const std::map<std::string, Setting>& effective) {
+  if (choice_of(path) == path) {
+    const auto below = effective.lower_bound(path + ".");
+    if (below != effective.end() && below->first.starts_with(path + "."))
+      return strategy_in(below->first, path);
+  }
+  const auto itself = effective.find(path);
   return itself == effective.end() ? std::nullopt : std::optional(itself->second.text);
 }
 
@@ -90,16 +94,13 @@ std::optional<std::string> strategy_as_run(const std::string& choice,
 
 std::vector<SettingValues> comparable_values(const std::vector<SettingAsRun>& settings) {
   std::vector<SettingValues> result;
-  std::set<std::string> chosen;
+  std::set<std::string> named;
   for (const SettingAsRun& setting : settings) {
-    for (const auto& [path, value] : result.emplace_back(unfolded(setting.values))) {
-      if (choice_of(path) == path) chosen.insert(path);
-    }
+    for (const auto& [path, value] : result.emplace_back(unfolded(setting.values))) named.insert(path);
   }
   for (std::size_t i = 0; i < settings.size(); ++i) {
-    for (const std::string& choice : chosen) {
-      if (const auto strategy = strategy_as_run(choice, *settings[i].effective))
-        put(choice, *strategy, result[i]);
+    for (const std::string& path : named) {
+      if (const auto value = value_as_run(path, *settings[i].effective)) put(path, *value, result[i]);
     }
   }
   return result;

@@ -21,7 +21,7 @@ struct SettingAsRun {
 
 /// The values of each setting, where the choice of a strategy is a value of its own: `localizer.clusterer:
 /// {dbscan: {eps: 1}}` and `localizer.clusterer.dbscan.eps: 1` both are `dbscan` and `1`. Settings that leave
-/// such a choice alone which others make have the one they were run with.
+/// alone what others set have the value they were run with, if what they ran has it.
 [[nodiscard]] std::vector<SettingValues> comparable_values(const std::vector<SettingAsRun>& settings);
 
 }  // namespace glocal

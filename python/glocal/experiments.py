@@ -71,7 +71,7 @@ class Experiment:
     """An experiment file, with what `with_()` changes of it. It never changes itself."""
 
     def __init__(self, file: PathLike, changes: Mapping[str, Any] | None = None) -> None:
-        self._path = pathlib.Path(file)
+        self._path = pathlib.Path(file).absolute()
         self._changes = dict(changes or {})
         self._file = _core.ExperimentFile(self._path, _pairs(self._changes))
 
@@ -85,7 +85,11 @@ class Experiment:
 
         Values are as in YAML: numbers, texts, True, lists and dicts. Raises ConfigError as load() does.
         """
-        return Experiment(self._path, {**self._changes, **changes})
+        # What is given last is said last: it may be a part of what was given before, or hold it.
+        kept = {path: value for path, value in self._changes.items() if path not in changes}
+        changed = Experiment(self._path, {**kept, **changes})
+        changed._file.require_same_file(self._file)
+        return changed
 
     @property
     def file(self) -> pathlib.Path:

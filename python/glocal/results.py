@@ -97,8 +97,9 @@ class Results:
 
     def __init__(self, folder: PathLike) -> None:
         self.folder = pathlib.Path(folder)
-        found = [pathlib.Path(path) for path in _core.results_folders(self.folder)]
-        self._is_one = [path.resolve() for path in found] == [self.folder.resolve()]
+        self._place = self.folder.absolute()  # wherever the process goes from here
+        found = [pathlib.Path(path) for path in _core.results_folders(self._place)]
+        self._is_one = [path.resolve() for path in found] == [self._place.resolve()]
         self._folders = found
 
     @cached_property
@@ -108,7 +109,7 @@ class Results:
 
     @cached_property
     def _read(self) -> tuple[Summary, Table, Table]:
-        summary, trials, steps = _core.read_folder(self.folder)
+        summary, trials, steps = _core.read_folder(self._place)
         return Summary(json.loads(summary)), Table(trials), Table(steps)
 
     def summary(self) -> Summary | Summaries:
@@ -141,13 +142,13 @@ class Results:
 
     def sweep(self, *, baseline: str = "") -> Sweep:
         """What the variants teach: which settings are good, against `baseline` (default: the first), and which parameters matter."""
-        return Sweep(*_core.sweep(str(self.folder), 20, baseline))
+        return Sweep(*_core.sweep(str(self._place), 20, baseline))
 
     def _only(self) -> pathlib.Path:
         if not self._is_one:
             names = ", ".join(self.variants)
             raise ConfigError(f"{self.folder} holds several runs, and one is wanted: choose one of variants[...]: {names}")
-        return self.folder
+        return self._place
 
     def plot_map(self, trial: int = 0, step: int | None = None, *, axes: Axes | None = None) -> Figure:
         """A step of a trial on the map: see glocal.plotting.plot_map()."""

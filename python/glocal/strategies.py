@@ -92,11 +92,13 @@ class ObservationSource(_Strategy):
 class _Stage(_Strategy):
     setup: StageSetup
 
+
+class _Remembering(_Stage):
     def reset(self) -> None:
         """Forgets all earlier steps: a trial begins."""
 
 
-class LocalMapper(_Stage):
+class LocalMapper(_Remembering):
     """Joins observations into a local map."""
 
     kind = "local_mapper"
@@ -111,7 +113,7 @@ class LocalMapper(_Stage):
         raise NotImplementedError
 
 
-class Matcher(_Stage):
+class Matcher(_Remembering):
     """Proposes poses of the local map in the global map."""
 
     kind = "matcher"
@@ -153,7 +155,7 @@ class Rater(_Stage):
         raise NotImplementedError
 
 
-class ThresholdPolicy(_Stage):
+class ThresholdPolicy(_Remembering):
     """Says which score a hypothesis must reach."""
 
     kind = "threshold_policy"
@@ -168,7 +170,7 @@ class ThresholdPolicy(_Stage):
         raise NotImplementedError
 
 
-class VerdictRule(_Stage):
+class VerdictRule(_Remembering):
     """Says whether the answer can be trusted."""
 
     kind = "verdict_rule"
@@ -189,7 +191,7 @@ class VerdictRule(_Stage):
         """It is not told, for what the rule does not know of: the robot's set-up, or that it is off the map."""
 
 
-class Verifier(_Stage):
+class Verifier(_Remembering):
     """Looks on the whole map for rivals of a pose that is about to be declared."""
 
     kind = "verifier"
@@ -270,7 +272,7 @@ class _Registered:
     make: Callable[[dict[str, Any], Any], Any]
     make_params: Callable[..., Any] | None
     source: str  # the file that it is written in, or what it is called
-    hash: str  # of what it does, where that is in no file
+    hash: str  # of that file, or of what it does
 
 
 def _core_type(hint: Any) -> tuple[str, list[str]]:
@@ -350,6 +352,8 @@ def _registered_as(name: str, strategy: type[_Strategy]) -> _Registered:
     missing = [method for method in strategy.abstract if _is_abstract(strategy, method)]
     if missing:
         raise TypeError(f"{strategy.__qualname__} lacks the method {', '.join(missing)}() that each {strategy.kind} must have")
+    if hasattr(strategy, "reset") and not issubclass(strategy, _Remembering):
+        raise TypeError(f"{strategy.__qualname__} has reset(), which is never called: a {strategy.kind} keeps nothing of earlier steps")
     doc = _first_sentence(strategy.__dict__.get("__doc__"))
     if not doc:
         raise TypeError(f"{strategy.__qualname__} needs a docstring: its first sentence tells users what it does")
@@ -376,7 +380,7 @@ def _registered_as(name: str, strategy: type[_Strategy]) -> _Registered:
         make=make,
         make_params=make_params if hasattr(params, "__post_init__") else None,
         source=str(file or f"the {strategy.kind} '{name}'"),
-        hash="" if file else _hash_of(strategy, fields),
+        hash=hashlib.sha256(file.read_bytes()).hexdigest() if file else _hash_of(strategy, fields),
     )
 
 
@@ -417,11 +421,10 @@ def register(name: str) -> Callable[[_S], _S]:
 def load_plugin(file: str | pathlib.Path) -> None:
     """Loads the strategies of a plugin, a shared object or a Python file, as the program's --plugin does.
 
-    Results of runs name it, so that the program can load it again.
+    Results of runs name it, so that the program can load it again. A Python file that is loaded again is read again.
     """
     path = str(pathlib.Path(file).resolve())
-    if path not in _plugin_files:
-        _take(lambda: _plugin_files.append(path))
+    _take(lambda: None if path in _plugin_files else _plugin_files.append(path))
 
 
 def _take(add: Callable[[], None]) -> None:
@@ -459,7 +462,7 @@ def plugin_files() -> list[str]:
 
 
 def sources() -> list[tuple[str, str, str]]:
-    """Of each registered class: its name, and the file that it is written in; without one what it is called, and a hash."""
+    """Of each registered class: its name, the file that it is written in or else what it is called, and the hash of that."""
     return [(entry.name, entry.source, entry.hash) for entry in _registered.values()]
 
 

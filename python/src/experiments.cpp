@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "evaluation/results/provenance.hpp"
 #include "evaluation/running/experiment_loader.hpp"
 #include "glocal/error.hpp"
 #include "glocal/localizer.hpp"
@@ -39,17 +40,18 @@ auto calling(py::handle function) {
   };
 }
 
-/// Of a registered class: its name as a strategy, its file, or what it is called and its hash.
+/// Of a registered class: its name as a strategy, its file or else what it is called, and the hash of that.
 using Source = std::tuple<std::string, std::string, std::string>;
 
 /// An experiment file with its overrides, read, and all its variants.
 class File {
  public:
-  File(const fs::path& file, const py::list& overrides) : file_(file), overrides_(overrides_of(overrides)) {
+  File(const fs::path& file, const py::list& overrides)
+      : file_(file), overrides_(overrides_of(overrides)), hash_(hash_of_file()) {
     const std::vector<FilePath> plugins = read_plugins(file_, overrides_);
     session_ = plugins.empty() ? current_session() : new_session();
     const py::gil_scoped_release others_may;
-    for (const FilePath& plugin : plugins) session_->plugins.load(plugin.resolved);
+    for (const FilePath& plugin : plugins) session_->load(plugin.resolved);
     variants_ = read_variants(file_, overrides_, session_->catalog);
     for (Variant& variant : variants_) variant.experiment.plugins = session_->plugins.named();
   }
@@ -71,18 +73,13 @@ class File {
   [[nodiscard]] std::pair<fs::path, bool> run(RunOptions options, const std::vector<Source>& sources,
                                               const py::object& on_begin, const py::object& on_trial,
                                               const py::object& on_text) const {
-    options.plugins = session_->plugins.loaded();
+    options.sources = session_->hashes;
+    options.sources[file_.string()] = hash_;
     // The strategies that come with the package are in its module.
     options.plugins.emplace_back(py::module_::import("glocal._core").attr("__file__").cast<std::string>());
     const py::object words = py::module_::import("sys").attr("orig_argv");
     options.command = py::module_::import("shlex").attr("join")(words).cast<std::string>();
-    for (const auto& [strategy, source, hash] : used(sources)) {
-      if (hash.empty()) {
-        options.plugins.emplace_back(source);
-      } else {
-        options.sources[source] = hash;
-      }
-    }
+    for (const auto& [strategy, source, hash] : used(sources)) options.sources[source] = hash;
     RunObserver observer;
     observer.begin = [begin = calling<std::string, std::size_t, std::size_t>(on_begin)](
                          const VariantBegin& v) { begin(v.name, v.trials, v.finished); };
@@ -97,6 +94,12 @@ class File {
     observer.stop = [&] { return interrupts.happened(); };
     const RunResult result = run_variants(variants_, file_, session_->catalog, options, observer);
     return {result.folder, result.complete};
+  }
+
+  /// Throws if the file was another one when `other` was read.
+  void require_same_file(const File& other) const {
+    if (hash_ != other.hash_)
+      throw ConfigError(file_, "has changed since it was read; load the experiment again");
   }
 
   /// The experiment that has no variants.
@@ -134,9 +137,15 @@ class File {
     return used;
   }
 
+  /// Empty if it cannot be read.
+  [[nodiscard]] std::string hash_of_file() const {
+    return fs::is_regular_file(file_) ? sha256_of_file(file_) : std::string();
+  }
+
   std::shared_ptr<Session> session_;
   fs::path file_;
   std::vector<Override> overrides_;
+  std::string hash_;  ///< Of the file as it was read.
   std::vector<Variant> variants_;
 };
 
@@ -250,6 +259,7 @@ void bind_experiments(py::module_& module) {
       .def_property_readonly("map", &BoundLocalizer::map);
   py::class_<File>(module, "ExperimentFile")
       .def(py::init<const fs::path&, const py::list&>(), py::arg("file"), py::arg("overrides"))
+      .def("require_same_file", &File::require_same_file)
       .def_property_readonly("name", &File::name)
       .def_property_readonly("variants", &File::variants)
       .def("effective", &File::effective)

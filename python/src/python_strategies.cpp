@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <stdexcept>
+#include <type_traits>
 #include <unordered_map>
 #include <utility>
 
@@ -18,6 +21,24 @@
 
 namespace glocal::python {
 namespace {
+
+/// What a setup calls, as long as `use` lives: the strategy's object may outlive the run that it was made
+/// for.
+template <class Argument>
+std::function<void(const Argument&)> while_used(std::function<void(const Argument&)> function,
+                                                const std::weak_ptr<const void>& use) {
+  return [function = std::move(function), use](const Argument& argument) {
+    if (use.expired()) throw py::value_error("this setup is for a strategy at work, and its work is over");
+    function(argument);
+  };
+}
+
+template <class Setup>
+Setup while_used(Setup setup, const std::weak_ptr<const void>& use) {
+  setup.note_input = while_used(std::move(setup.note_input), use);
+  if constexpr (requires { setup.warn; }) setup.warn = while_used(std::move(setup.warn), use);
+  return setup;
+}
 
 /// The strategy's object. What its constructor raises is a fault of the configuration.
 template <class Setup>
@@ -54,7 +75,8 @@ constexpr auto nothing = [](const py::object&) {};
 
 class PythonMapSource final : public MapSource {
  public:
-  explicit PythonMapSource(py::object object) : object_(std::move(object)) {}
+  PythonMapSource(py::object object, std::shared_ptr<const void> use)
+      : use_(std::move(use)), object_(std::move(object)) {}
   MapData load() override {
     return load_([](const py::object& map) {
       if (!py::isinstance<GlobalMap>(map)) throw py::value_error("load() returns a GlobalMap");
@@ -63,13 +85,15 @@ class PythonMapSource final : public MapSource {
   }
 
  private:
+  std::shared_ptr<const void> use_;
   Held object_;
   Method load_{object_, "load"};
 };
 
 class PythonObservationSource final : public ObservationSource {
  public:
-  explicit PythonObservationSource(py::object object) : object_(std::move(object)) {}
+  PythonObservationSource(py::object object, std::shared_ptr<const void> use)
+      : use_(std::move(use)), object_(std::move(object)) {}
   std::optional<Sample> next() override {
     return next_([](const py::object& sample) -> std::optional<Sample> {
       if (sample.is_none()) return std::nullopt;
@@ -78,6 +102,7 @@ class PythonObservationSource final : public ObservationSource {
   }
 
  private:
+  std::shared_ptr<const void> use_;
   Held object_;
   Method next_{object_, "next"};
 };
@@ -286,8 +311,13 @@ bool added(Registry<Interface, Setup>& registry, const std::shared_ptr<const Pyt
       strategy->name, strategy->doc, strategy->motions,
       [strategy] { return std::make_unique<PythonParams>(strategy); },
       [strategy](const AnyParams& params, const Setup& setup) -> std::unique_ptr<Interface> {
-        py::object object = make_object(*strategy, params, setup);
-        return std::make_unique<Adapter>(std::move(object));
+        auto use = std::make_shared<const bool>(true);
+        py::object object = make_object(*strategy, params, while_used(setup, use));
+        if constexpr (std::is_same_v<Setup, SourceSetup>) {
+          return std::make_unique<Adapter>(std::move(object), std::move(use));
+        } else {
+          return std::make_unique<Adapter>(std::move(object));
+        }
       });
   return true;
 }

@@ -9,6 +9,7 @@
 
 #include "config/help.hpp"
 #include "config/nearest.hpp"
+#include "evaluation/results/provenance.hpp"
 #include "glocal/builtin.hpp"
 #include "glocal/contract.hpp"
 #include "glocal/error.hpp"
@@ -53,10 +54,16 @@ Session::Session() {
   plugins.hand_over(".py", load_python_plugin);
 }
 
+void Session::load(const std::filesystem::path& plugin) {
+  plugins.load(plugin);
+  for (const std::filesystem::path& file : plugins.loaded()) {
+    if (!hashes.contains(file.string())) hashes[file.string()] = sha256_of_file(file);
+  }
+}
+
 std::shared_ptr<Session> new_session() {
   auto session = std::make_shared<Session>();
-  for (const py::handle& file : registered().attr("plugin_files")())
-    session->plugins.load(file.cast<std::string>());
+  for (const py::handle& file : registered().attr("plugin_files")()) session->load(file.cast<std::string>());
   for (RegistryBase* registry : session->catalog.registries()) registry->set_origin("Python");
   add_all(registered().attr("registered")(), session->catalog);
   return session;

@@ -4,7 +4,9 @@
 #include <pybind11/pybind11.h>
 
 #include <filesystem>
+#include <map>
 #include <memory>
+#include <string>
 
 #include "glocal/catalog.hpp"
 #include "loading/plugin_loader.hpp"
@@ -16,8 +18,11 @@ namespace py = pybind11;
 /// A catalog with what loads plugins into it. Whoever uses its strategies keeps it.
 struct Session {
   Session();
+  void load(const std::filesystem::path& plugin);
   Catalog catalog;
   PluginLoader plugins{catalog};
+  /// SHA-256 of the plugins as they were loaded, by their files.
+  std::map<std::string, std::string> hashes;
 };
 
 /// That of now. Classes that are registered later, or again, are in a new one. The GIL is held.

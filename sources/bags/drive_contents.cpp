@@ -125,6 +125,10 @@ DriveContents& ContentsReader::settle(bool more_may_come) {
   contents_.mounts.clear();
   choose_frames(more_may_come);
   contents_.tf_reference = contents_.tree.path(wanted_.reference_frame, contents_.base_frame);
+  if (!wanted_.reference_frame.empty() && !contents_.tf_reference)
+    fail(fmt::format("tf does not connect {} with {}; set {} to a topic or a frame of the tree, which is\n{}",
+                     shown(wanted_.reference_frame), shown(contents_.base_frame),
+                     wanted_.are_options ? "--reference" : "reference", tree_text()));
   check_sensors();
   wanted_.odometry = contents_.odometry;
   wanted_.odom_frame = contents_.odom_frame;

@@ -1,5 +1,7 @@
 #include "sources/carmen/carmen_parser.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -10,6 +12,7 @@
 
 #include "glocal/error.hpp"
 #include "glocal/limits.hpp"
+#include "glocal/pose2.hpp"
 #include "glocal/words.hpp"
 #include "sources/compressed_file.hpp"
 #include "sources/text_lines.hpp"
@@ -58,9 +61,16 @@ class Fields {
     return value;
   }
 
+  [[nodiscard]] double coordinate(const char* what) {
+    const double value = finite(what);
+    if (std::abs(value) > farthest_m)
+      throw BadLine{fmt::format("{}: {} m is too far, at most {} m are allowed", what, value, farthest_m)};
+    return value;
+  }
+
   [[nodiscard]] Pose2 pose(const char* what) {
-    const double x = finite(what);
-    const double y = finite(what);
+    const double x = coordinate(what);
+    const double y = coordinate(what);
     return {x, y, wrap_angle(finite(what))};
   }
 

@@ -26,11 +26,6 @@ RecordingDriveReader::RecordingDriveReader(const std::filesystem::path& path, co
     : file_(path.string()), warn_(std::move(warn)), recording_(path, damage) {
   recording_.tell_progress(std::move(progress));
   contents_ = bags::read_contents(recording_, topics, file_, warn_);
-  if (!contents_.reference_frame.empty() && !contents_.tf_reference)
-    throw ConfigError(file_,
-                      fmt::format("tf does not connect {} with {}; give --reference a topic or a frame of "
-                                  "the tree, which glocal bag info shows",
-                                  shown(contents_.reference_frame), shown(contents_.base_frame)));
   std::set<std::string> with_scans;
   for (const bags::ScanTopic& scan : contents_.scans) {
     with_scans.insert(scan.topic);

@@ -170,7 +170,7 @@ TEST_F(Leaderboard, WritesNoPageOfWhatCannotBeRead) {
   };
   EXPECT_THAT(refused(), HasSubstr("leaderboard: error: has no results yet; glocal leaderboard add "));
   run_and_add();
-  EXPECT_THAT(refused(" --method other"), HasSubstr("has no results"));
+  EXPECT_THAT(refused(" --method other"), HasSubstr("has no results by other yet"));
   EXPECT_THAT(refusal(run("leaderboard --board " + file("nowhere"))),
               HasSubstr("nowhere: error: has no results yet"));
   EXPECT_THAT(refused(" --markdown"), HasSubstr("--markdown"));

@@ -76,6 +76,8 @@ TEST(LiveState, ThatIsDamagedIsRefused) {
   const std::string no_rotation =
       R"({"schema":1,"map":"","pose":[0,0,0,0,0,0,0],"covariance":null,"stamp":0,"way_since_m":0})";
   EXPECT_THAT(fault(no_rotation), HasSubstr("has no pose that can be; remove it"));
+  EXPECT_THAT(config_error(folder.path(), [&] { static_cast<void>(read_state(folder.path() / ".")); }),
+              HasSubstr("is a folder; name a file with --state"));
 }
 
 }  // namespace

@@ -74,7 +74,9 @@ TEST_F(NewPluginCommand, RefusesWhatCannotBeBuilt) {
 TEST_F(NewPluginCommand, LeavesAFolderThatIsInUseAlone) {
   fs::create_directory(folder());
   std::ofstream(folder() / "thesis.txt") << "unfinished\n";
-  EXPECT_THAT(refusal(run("new-plugin matcher mine -o " + folder().string())), HasSubstr(folder().string()));
+  EXPECT_THAT(refusal(run("new-plugin matcher mine -o " + folder().string())),
+              HasSubstr(folder().string() +
+                        ": error: the folder exists and is not empty; choose another one with --out\n"));
   EXPECT_EQ(content(folder() / "thesis.txt"), "unfinished\n");
   EXPECT_FALSE(fs::exists(folder() / "mine.cpp"));
 }

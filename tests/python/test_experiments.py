@@ -1,4 +1,5 @@
 """glocal.Experiment: reads, changes and runs experiments as the program does."""
+import hashlib
 import json
 import os
 import pathlib
@@ -42,6 +43,34 @@ def test_lists_and_dicts_are_values_too(room):
     )
     assert "dbscan:\n      radius: 0.75" in changed.effective_yaml()
     assert "steps: false" in changed.effective_yaml()
+
+
+def test_what_is_changed_last_holds(room):
+    iterations = "localizer.matcher.ransam.iterations"
+    first = glocal.Experiment.load(room).with_(**{iterations: 1000})
+    second = first.with_(**{"localizer.matcher": {"ransam": {"iterations": 2000}}})
+    assert "iterations: 2000" in second.effective_yaml()
+    assert "iterations: 3000" in second.with_(**{iterations: 3000}).effective_yaml()
+
+
+def test_an_experiment_is_the_file_that_was_read(room, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    experiment = glocal.Experiment.load("room.yaml")
+    elsewhere = tmp_path / "elsewhere"
+    elsewhere.mkdir()
+    (elsewhere / "room.yaml").write_text("not an experiment")
+    monkeypatch.chdir(elsewhere)
+    results = experiment.with_(seed=3).run(tmp_path / "out")
+    assert str(room) in json.loads((results.folder / "provenance.json").read_text())["inputs_sha256"]
+    later = experiment.run("results_here")
+    monkeypatch.chdir(tmp_path)
+    assert len(later.trial_table["trial"]) > 0
+    read = hashlib.sha256(room.read_bytes()).hexdigest()
+    room.write_text(room.read_text().replace("20000", "500"))
+    again = experiment.run(tmp_path / "again")
+    assert json.loads((again.folder / "provenance.json").read_text())["inputs_sha256"][str(room)] == read
+    with pytest.raises(glocal.ConfigError, match="room.yaml: has changed since it was read"):
+        experiment.with_(seed=4)
 
 
 def test_all_faults_come_at_once_with_their_places(room):

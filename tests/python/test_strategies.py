@@ -1,4 +1,5 @@
 """Strategies in Python: each kind in an experiment, what of them is refused, and what the core says then."""
+import hashlib
 import json
 import math
 import pathlib
@@ -362,6 +363,7 @@ class BadDefault:
         (lambda: define(Params=int), "dataclass"),
         (lambda: type("Made", (glocal.Rater,), {"__doc__": "Lacks all."}), "lacks the method rate"),
         (lambda: type("Made", (), {"__doc__": "Is none."}), "subclass"),
+        (lambda: define(reset=lambda self: None), r"reset\(\), which is never called: a clusterer keeps nothing of earlier steps"),
     ],
 )
 def test_classes_that_cannot_be_strategies_are_refused(made, error):
@@ -473,6 +475,24 @@ def test_what_was_lent_is_gone_after_the_call_and_arrays_of_it_stay(room, tmp_pa
             lent.quality
 
 
+def test_a_setup_can_be_kept_and_does_nothing_once_the_work_is_over(room, tmp_path):
+    kept = []
+
+    @glocal.register("keeping")
+    class Keeping(glocal.MapSource):
+        """A wall, and the setup."""
+
+        def load(self):
+            self.setup.note_input(str(room))
+            kept.append(self.setup)
+            return glocal.GlobalMap(np.column_stack([np.linspace(0, 9, 100), np.ones(100)]))
+
+    glocal.Experiment.load(room).with_(map="keeping").load_map()
+    for use in (lambda: kept[0].note_input("table.csv"), lambda: kept[0].warn("Too late.")):
+        with pytest.raises(ValueError, match="its work is over"):
+            use()
+
+
 def test_parts_of_what_was_lent_are_gone_too(room, tmp_path):
     kept = []
 
@@ -519,6 +539,35 @@ def test_a_plugin_file_is_executed_once(room, tmp_path):
         glocal.list_strategies()
         glocal.Experiment.load(room).with_(**{"localizer.clusterer": "cells"})
     assert executed.read_text() == "."
+
+
+def test_a_plugin_file_that_changes_is_read_again_when_it_is_loaded_again(room, tmp_path):
+    def text(r):
+        return (
+            "import glocal, numpy as np\n"
+            "@glocal.register('edited')\n"
+            "class Edited(glocal.Rater):\n"
+            "    'Trusts all alike.'\n"
+            f"    def rate(self, clusters, hypotheses):\n        return np.full(len(clusters), {r})\n"
+        )
+
+    def rating_and_hash():
+        experiment = glocal.Experiment.load(room).with_(**{"localizer.rater": "edited"})
+        step = experiment.localizer().step(experiment.load_samples()[0].observation)
+        results = experiment.run(tmp_path / "out", force=True)
+        inputs = json.loads((results.folder / "provenance.json").read_text())["inputs_sha256"]
+        return step.ratings.r[0], inputs[str(plugin)]
+
+    def hash_of(r):
+        return hashlib.sha256(text(r).encode()).hexdigest()
+
+    plugin = tmp_path / "edited.py"
+    plugin.write_text(text(0.25))
+    glocal.load_plugin(plugin)
+    plugin.write_text(text(0.75))
+    assert rating_and_hash() == (0.25, hash_of(0.25))
+    glocal.load_plugin(plugin)
+    assert rating_and_hash() == (0.75, hash_of(0.75))
 
 
 def test_an_experiment_names_its_plugins_and_others_do_not(room, tmp_path):

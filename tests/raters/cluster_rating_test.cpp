@@ -62,6 +62,12 @@ TEST(ClusterRating, TheBestPossibleIsOne) {
   EXPECT_DOUBLE_EQ(rater.rate({{{0}, {}, 0.0, 0.0, 0.0}}, {with_score(1.0)})[0].r, 1.0);
 }
 
+TEST(ClusterRating, IsAtMostOneForWeightsThatAreRounded) {
+  ASSERT_GT(0.4 + 0.2 + 0.3 + 0.1, 1.0);
+  ClusterRating rater({.weights = {0.4, 0.2, 0.3, 0.1}});
+  EXPECT_EQ(rater.rate({{{0}, {}, 0.0, 0.0, 0.0}}, {with_score(1.0)})[0].r, 1.0);
+}
+
 TEST(ClusterRating, FirstStepRatingsOfFigure4a) {
   // Some 800 clusters of single hypotheses just over the threshold: "all weights range between 0.2 and 0.45".
   std::vector<Hypothesis> hypotheses;

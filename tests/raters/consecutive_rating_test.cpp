@@ -43,6 +43,16 @@ TEST(ConsecutiveRating, LocalizedInTheThirdConsecutiveStep) {
   EXPECT_EQ(rule.judge(step({good, poor})).kind, localized);
 }
 
+TEST(ConsecutiveRating, ScansWithoutAPointCountNothing) {
+  StepResult nothing = step({good, poor});
+  nothing.saw_nothing = true;
+  ConsecutiveRating rule({});
+  EXPECT_THAT(kinds(rule, std::vector(5, nothing)), testing::Each(searching));
+  const StepResult look = step({good, poor});
+  EXPECT_THAT(kinds(rule, {look, nothing, look, nothing, look, nothing}),
+              ElementsAre(searching, searching, searching, searching, localized, localized));
+}
+
 TEST(ConsecutiveRating, TheRatingMustBeLarger) {
   ConsecutiveRating rule({});
   for (int i = 0; i < 5; ++i) {

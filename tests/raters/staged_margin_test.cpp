@@ -59,6 +59,20 @@ TEST(StagedMargin, OneStepWithoutTheLeadBeginsAnew) {
               ElementsAre(searching, searching, searching, searching, searching, localized));
 }
 
+TEST(StagedMargin, ScansWithoutAPointCountNothing) {
+  const auto without_points = [](double driven) {
+    StepResult result = step(0.9, 0.3, driven);
+    result.saw_nothing = true;
+    return result;
+  };
+  StagedMargin rule({}, {});
+  (void)rule.judge(step(0.9, 0.3));
+  for (int i = 1; i <= 20; ++i) EXPECT_EQ(rule.judge(without_points(0.5 * i)).kind, searching) << i;
+  // Looks count on, and what is declared stays so.
+  EXPECT_THAT(kinds(rule, {step(0.9, 0.3, 10.5), step(0.9, 0.3, 11.0), without_points(11.5)}),
+              ElementsAre(searching, localized, localized));
+}
+
 TEST(StagedMargin, AScanThatDoesNotFitBeginsAnewAndTakesTheVerdictBack) {
   StagedMargin rule({}, {});
   const auto with_scan = [](double contact) {

@@ -27,7 +27,8 @@ struct RunOptions {
   /// Files that strategies of the catalog come from. Their hashes are noted with those of all other inputs:
   /// where one has changed, an unfinished run is not gone on with.
   std::vector<std::filesystem::path> plugins = {};
-  /// The same for what is in no file: a hash by a name of it.
+  /// The same of which the hash is known: plugins, the experiment's own file, and, by a name, what is in
+  /// no file.
   std::map<std::string, std::string> sources = {};
   std::string command = {};  ///< How the user asked for the run, for its record.
 };

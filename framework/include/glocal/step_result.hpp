@@ -159,6 +159,7 @@ struct StepResult {
   /// in the plane, and none without such a point.
   std::optional<double> omega_scan;
   std::vector<HitKind> hit_kinds;  ///< Of these points, in beam order; empty in space.
+  bool saw_nothing = false;        ///< The latest scan has no point: what fits does so by older ones alone.
   std::size_t proposals = 0;       ///< Relations found on both sides: poses before any of them was judged.
   std::size_t points_tested = 0;   ///< Single points tested for contact.
 

@@ -202,6 +202,7 @@ StepResult Localizer::step(const Observation& observation) {
   result.step = step_++;
   result.stamp = observation.stamp;
   result.motion = motion_;
+  result.saw_nothing = observation.scan.hits.empty();
   const LocalMap& local = add(observation, result);
   follow_noise(observation.scan, result);
   match(local, observation, result);

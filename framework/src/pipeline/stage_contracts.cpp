@@ -100,6 +100,7 @@ void check_sample(const Sample& sample, Motion motion) {
 }
 
 void check_observation(const Observation& observation, Motion motion) {
+  require(std::isfinite(observation.stamp), "the stamp is not finite");
   check_points(observation.scan.hits, "hits");
   check_points(observation.scan.free_ends, "free ends");
   const std::vector<float>& times = observation.scan.times;

@@ -40,5 +40,20 @@ TEST(SettingValues, WhoLeavesAChoiceAloneHasWhatItWasRunWith) {
               ElementsAre(Pair("trials.max_steps", "9"), Pair("localizer.clusterer", "hierarchical_kmeans")));
 }
 
+TEST(SettingValues, WhoLeavesAParameterAloneHasItsDefaultIfItHasIt) {
+  const std::map<std::string, Setting> ransam = {
+      {"localizer.matcher.ransam.iterations", {"200000", "200000"}}, {"trials.max_steps", {"15", "15"}}};
+  const std::map<std::string, Setting> indexed = {
+      {"localizer.matcher.indexed_ransam.candidates", {"64", "64"}}, {"trials.max_steps", {"15", "15"}}};
+  const auto values = comparable_values({{{}, &ransam},
+                                         {{{"localizer.matcher.ransam.iterations", "20000"}}, &ransam},
+                                         {{{"localizer.matcher", "indexed_ransam"}}, &indexed}});
+  EXPECT_THAT(values[0], ElementsAre(Pair("localizer.matcher", "ransam"),
+                                     Pair("localizer.matcher.ransam.iterations", "200000")));
+  EXPECT_THAT(values[1], ElementsAre(Pair("localizer.matcher", "ransam"),
+                                     Pair("localizer.matcher.ransam.iterations", "20000")));
+  EXPECT_THAT(values[2], ElementsAre(Pair("localizer.matcher", "indexed_ransam")));
+}
+
 }  // namespace
 }  // namespace glocal::test::setting_values_test

@@ -99,6 +99,7 @@ TEST(StageContracts, SamplesArePlaces) {
     break_it(sample);
     EXPECT_THROW(check_sample(sample, Motion::planar), BrokenContract);
   };
+  expect_broken([](Sample& s) { s.observation.stamp = not_a_number; });
   expect_broken([](Sample& s) { s.observation.scan.hits.y[0] = std::numeric_limits<float>::infinity(); });
   expect_broken([](Sample& s) { s.observation.scan.free_ends.push_back({1e8F, 0, 0}); });
   expect_broken([](Sample& s) { s.observation.scan.times = {0.0F, 0.1F}; });

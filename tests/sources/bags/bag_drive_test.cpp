@@ -187,6 +187,15 @@ TEST_F(Bags, ReferencesAreOfAFrame) {
   EXPECT_NEAR(read().at(0).map_from_robot->y, -2.0, 1e-9);
 }
 
+TEST_F(Bags, AReferenceFrameThatTfDoesNotHaveIsRefused) {
+  drive(1.0, 0.0, 2);
+  mount({});
+  recording_.scan("/scan", 1000 * ms, {.ranges = {2.0F}});
+  params_.reference.frame = "mapp";
+  EXPECT_THAT(fault(),
+              HasSubstr("tf does not connect mapp with base_link; set reference to a topic or a frame"));
+}
+
 TEST_F(Bags, AReferenceThatEndsEarlyIsTold) {
   drive(1.0, 0.0, 2);
   mount({});

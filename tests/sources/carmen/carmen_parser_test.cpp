@@ -1,6 +1,7 @@
 #include "sources/carmen/carmen_parser.hpp"
 
-#include <gtest/gtest.h>
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
 #include <numbers>
@@ -119,6 +120,14 @@ TEST(CarmenParser, NamesLineAndRuleOfEveryFault) {
                 "\na.log:6: error: ODOM odometry pose: 'x' is not a number" + again +
                 "\na.log:7: error: TRUEPOS has 8 fields where 10 are needed" + again +
                 "\na.log:8: error: FLASER ends before number of readings" + again);
+}
+
+TEST(CarmenParser, RefusesPosesThatAreNowhere) {
+  for (const char* far : {"1e300", "-1.1e7"}) {
+    EXPECT_THAT(fault_of(fmt::format("ODOM 0 {} 0 0 0 0 1 h 0\n", far)),
+                testing::AllOf(testing::StartsWith("a.log:1: error: ODOM odometry pose: "),
+                               testing::HasSubstr("m is too far, at most 10000000 m are allowed")));
+  }
 }
 
 TEST(CarmenParser, RefusesAbsurdCounts) {

@@ -118,7 +118,7 @@ TEST(LogMap, SaysWhyThereIsNoMap) {
       "made from");
   EXPECT_EQ(message(params_for(folder.write("b.log", scan_at(0, 0, "2 1 1")))),
             "b.log: error: its map has no occupied cell; lower min_hits, or use more scans");
-  EXPECT_EQ(message(params_for(folder.write("c.log", scan_at(0, 0, "2 1 1") + scan_at(1e7, 1e9, "2 1 1")))),
+  EXPECT_EQ(message(params_for(folder.write("c.log", scan_at(0, 0, "2 1 1") + scan_at(1e7, 9e6, "2 1 1")))),
             "c.log: error: its map would have more than 64 million cells; raise resolution, lower max_range, "
             "or look for wrong reference poses");
 }
