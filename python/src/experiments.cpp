@@ -128,11 +128,11 @@ class File {
     for (auto variant = variants_.begin(); variant != variants_.end() && !sources.empty(); ++variant) {
       Experiment experiment = variant->experiment;
       const std::string values = effective_yaml(experiment, session_->catalog);
-      const auto named = std::ranges::stable_partition(sources, [&](const Source& source) {
+      const auto named = std::stable_partition(sources.begin(), sources.end(), [&](const Source& source) {
         return values.find(std::get<0>(source)) == std::string::npos;
       });
-      used.insert(used.end(), named.begin(), named.end());
-      sources.erase(named.begin(), named.end());
+      used.insert(used.end(), named, sources.end());
+      sources.erase(named, sources.end());
     }
     return used;
   }
