@@ -46,9 +46,9 @@ using Source = std::tuple<std::string, std::string, std::string>;
 /// An experiment file with its overrides, read, and all its variants.
 class File {
  public:
-  File(const fs::path& file, const py::list& overrides)
-      : file_(file), overrides_(overrides_of(overrides)), hash_(hash_of_file()) {
+  File(const fs::path& file, const py::list& overrides) : file_(file), overrides_(overrides_of(overrides)) {
     const std::vector<FilePath> plugins = read_plugins(file_, overrides_);
+    hash_ = sha256_of_file(file_);
     session_ = plugins.empty() ? current_session() : new_session();
     const py::gil_scoped_release others_may;
     for (const FilePath& plugin : plugins) session_->load(plugin.resolved);
@@ -73,8 +73,9 @@ class File {
   [[nodiscard]] std::pair<fs::path, bool> run(RunOptions options, const std::vector<Source>& sources,
                                               const py::object& on_begin, const py::object& on_trial,
                                               const py::object& on_text) const {
-    options.sources = session_->hashes;
     options.sources[file_.string()] = hash_;
+    for (const fs::path& plugin : session_->plugins.loaded())
+      options.sources[plugin.string()] = session_->hashes.of(plugin);
     // The strategies that come with the package are in its module.
     options.plugins.emplace_back(py::module_::import("glocal._core").attr("__file__").cast<std::string>());
     const py::object words = py::module_::import("sys").attr("orig_argv");
@@ -135,11 +136,6 @@ class File {
       sources.erase(named, sources.end());
     }
     return used;
-  }
-
-  /// Empty if it cannot be read.
-  [[nodiscard]] std::string hash_of_file() const {
-    return fs::is_regular_file(file_) ? sha256_of_file(file_) : std::string();
   }
 
   std::shared_ptr<Session> session_;

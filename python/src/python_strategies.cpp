@@ -361,7 +361,8 @@ void bind_setups(py::module_& module) {
       .def_readonly("has_verifier", &StageSetup::has_verifier, "Whether what is declared is verified.")
       .def(
           "note_input", [](const StageSetup& s, const std::string& file) { s.note_input(file); },
-          py::arg("file"), "To be called with every file that is read, for the record of a run.");
+          py::arg("file"),
+          "To be called with every file that is read while the stage is made, for the record of a run.");
   py::class_<SourceSetup>(module, "SourceSetup", "What a source may use when it is made.")
       .def_readonly("seed", &SourceSetup::seed, "The experiment's, for simulated noise.")
       .def_property_readonly(

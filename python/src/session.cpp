@@ -9,7 +9,6 @@
 
 #include "config/help.hpp"
 #include "config/nearest.hpp"
-#include "evaluation/results/provenance.hpp"
 #include "glocal/builtin.hpp"
 #include "glocal/contract.hpp"
 #include "glocal/error.hpp"
@@ -56,9 +55,7 @@ Session::Session() {
 
 void Session::load(const std::filesystem::path& plugin) {
   plugins.load(plugin);
-  for (const std::filesystem::path& file : plugins.loaded()) {
-    if (!hashes.contains(file.string())) hashes[file.string()] = sha256_of_file(file);
-  }
+  for (const std::filesystem::path& file : plugins.loaded()) static_cast<void>(hashes.of(file));
 }
 
 std::shared_ptr<Session> new_session() {

@@ -4,10 +4,9 @@
 #include <pybind11/pybind11.h>
 
 #include <filesystem>
-#include <map>
 #include <memory>
-#include <string>
 
+#include "evaluation/results/provenance.hpp"
 #include "glocal/catalog.hpp"
 #include "loading/plugin_loader.hpp"
 
@@ -21,8 +20,8 @@ struct Session {
   void load(const std::filesystem::path& plugin);
   Catalog catalog;
   PluginLoader plugins{catalog};
-  /// SHA-256 of the plugins as they were loaded, by their files.
-  std::map<std::string, std::string> hashes;
+  /// Of the plugins as they were loaded.
+  FileHashes hashes;
 };
 
 /// That of now. Classes that are registered later, or again, are in a new one. The GIL is held.
