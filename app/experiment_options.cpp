@@ -81,6 +81,13 @@ std::vector<std::string> ExperimentOptions::words() const {
   return words;
 }
 
+std::string ExperimentOptions::comment() const {
+  std::string text = fmt::format("{}", fmt::join(words(), " "));
+  if (text.empty()) return text;
+  std::ranges::replace(text, '\n', ' ');
+  return fmt::format("# Not in here, but changed on the command line: {}\n", text);
+}
+
 void ExperimentOptions::require_file() const {
   if (!file.empty() || (!methods.empty() && (!cases.empty() || !suite.empty()))) return;
   throw ConfigError(

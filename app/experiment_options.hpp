@@ -39,6 +39,9 @@ struct ExperimentOptions {
   /// All of it but the file, as words of a command line.
   [[nodiscard]] std::vector<std::string> words() const;
 
+  /// A line for an experiment that is written for them: what is changed and not in there, or nothing.
+  [[nodiscard]] std::string comment() const;
+
   /// Loads the plugins the file names, too. Throws ConfigError.
   [[nodiscard]] Experiment read(Context& context) const { return read(file, context); }
   [[nodiscard]] Experiment read(const std::string& other_file, Context& context) const;

@@ -283,7 +283,7 @@ void live(const LiveOptions& options, Context& context) {
   if (!options.force && std::filesystem::is_regular_file(steps))
     throw ConfigError(steps, "the file exists; choose another name, or replace it with --force");
   AtomicFiles files(options.force);
-  files.add(file, plan.experiment);
+  files.add(file, plan.experiment + options.changes.comment());
   files.commit();
   for (const std::string& choice : plan.choices) answer("{}\n", choice);
   answer("experiment  {}\n", file);

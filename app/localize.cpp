@@ -147,7 +147,7 @@ void localize(const LocalizeOptions& options, Context& context) {
   const LocalizePlan plan = plan_localization(request, context.catalog);
   const std::string out = options.out.empty() ? "results/" + plan.name : options.out;
   const std::string file = out + ".yaml";
-  write_experiment(file, plan.experiment, options.force);
+  write_experiment(file, plan.experiment + options.changes.comment(), options.force);
   for (const std::string& choice : plan.choices) answer("{}\n", choice);
   answer("experiment  {}\n", file);
   std::fflush(stdout);

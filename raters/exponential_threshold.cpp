@@ -17,8 +17,10 @@ void describe(ParamVisitor& v, ExponentialThreshold::Params& p) {
 }
 
 void ExponentialThreshold::update(const std::vector<Hypothesis>& hypotheses) {
-  omega_max_ += params_.weight * (mean_score(hypotheses) - omega_max_);
-  omega_max_ = std::clamp(omega_max_, 0.0, 1.0);
+  const double mean = mean_score(hypotheses);
+  const auto [low, high] = std::minmax({omega_max_, mean});
+  // Not beyond either by rounding, as no score would reach a threshold above both.
+  omega_max_ = std::clamp(omega_max_ + params_.weight * (mean - omega_max_), low, high);
 }
 
 }  // namespace glocal::raters

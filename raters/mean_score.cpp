@@ -1,5 +1,6 @@
 #include "raters/mean_score.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <numeric>
 
@@ -14,12 +15,15 @@ double mean_score(const std::vector<Hypothesis>& hypotheses) {
 double mean_score(const std::vector<Hypothesis>& hypotheses, std::span<const std::size_t> members) {
   double sum = 0.0;
   double weight = 0.0;
+  double largest = 0.0;
   for (const std::size_t i : members) {
     const auto support = static_cast<double>(hypotheses[i].support);
     sum += support * hypotheses[i].score;
     weight += support;
+    largest = std::max(largest, hypotheses[i].score);
   }
-  return weight > 0.0 ? sum / weight : 0.0;
+  // By rounding, a mean of equal scores may be above them: a threshold that none of them reaches.
+  return weight > 0.0 ? std::min(sum / weight, largest) : 0.0;
 }
 
 }  // namespace glocal::raters

@@ -25,7 +25,8 @@ SlidingWindow::SlidingWindow(const Params& params) : params_(params) {
 
 double SlidingWindow::omega_max() const {
   const double sum = std::accumulate(means_.begin(), means_.end(), 0.0);
-  return std::clamp(sum / static_cast<double>(means_.size()), 0.0, 1.0);
+  // Not above the largest by rounding, as no score would reach a threshold above equal ones.
+  return std::min(sum / static_cast<double>(means_.size()), std::ranges::max(means_));
 }
 
 void SlidingWindow::update(const std::vector<Hypothesis>& hypotheses) {

@@ -61,6 +61,8 @@ void translate_errors() {
     } catch (const ConfigError& error) {
       raise(as_python(error));
     } catch (const StrategyError& error) {
+      // A strategy in Python that Ctrl-C has ended is not at fault.
+      if (PyErr_CheckSignals() != 0) return;
       raise_named("StrategyError", error.what());
     } catch (const RunError& error) {
       raise_named("RunError", error.what());

@@ -28,7 +28,10 @@ auto with_python(Work work) {
   try {
     return work();
   } catch (const py::error_already_set& error) {
-    throw std::runtime_error(told(error));
+    const std::string what = told(error);
+    // Ctrl-C is for whoever has called the core: once more, after the last Python code that could take it.
+    if (error.matches(PyExc_KeyboardInterrupt)) PyErr_SetInterrupt();
+    throw std::runtime_error(what);
   }
 }
 

@@ -73,6 +73,8 @@ TEST_F(Live, FindsWhatLocalizeFindsOnTheRecording) {
 TEST_F(Live, AVerificationInPiecesGoesOnBetweenSteps) {
   const std::string pieces = " --set localizer.looks_per_step=500";
   good(live("drive.mcap", "--out " + file("live") + pieces));
+  EXPECT_THAT(content(file("live.yaml")),
+              testing::EndsWith("\n# Not in here, but changed on the command line:" + pieces + "\n"));
   std::vector<Json> steps = comparable(file("live.steps.jsonl"));
   const auto waits = [](const Json& step) {
     return step.contains("verification") && step["verification"].contains("goes_on");

@@ -45,7 +45,7 @@ test("meanings are told to pointer and keyboard", { skip }, async () => {
   assert.equal(await tip.isVisible(), false);
   const word = page.locator('.details dt:text-is("Ω′")');
   await word.hover();
-  assert.match(await tip.innerText(), /^Mean, over the last τ′ observations/);
+  assert.match(await tip.innerText(), /^Mean, over the last τ′ scans/);
   assert.equal(await word.getAttribute("aria-describedby"), "meaning");
   await page.keyboard.press("Escape");
   assert.equal(await tip.isVisible(), false);

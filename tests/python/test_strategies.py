@@ -2,7 +2,10 @@
 import hashlib
 import json
 import math
+import os
 import pathlib
+import signal
+import time
 from dataclasses import dataclass
 from typing import Literal, Optional
 
@@ -422,6 +425,28 @@ def test_an_exception_fails_its_trial_with_the_traceback(room, tmp_path):
     why = results.trial_table["why"][0]
     assert why.startswith("clusterer 'failing' threw an exception in step 0: ZeroDivisionError: division by zero")
     assert "in divided_by_zero" in why and "return n / 0" in why
+
+
+def test_ctrl_c_in_a_strategy_is_no_fault_of_it(room):
+    @glocal.register("patient")
+    class Patient(glocal.Clusterer):
+        """Is interrupted once."""
+
+        is_first = True
+
+        def cluster(self, hypotheses, rng):
+            if Patient.is_first:
+                Patient.is_first = False
+                os.kill(os.getpid(), signal.SIGINT)
+                time.sleep(10)
+            return np.zeros(len(hypotheses), int)
+
+    experiment = glocal.Experiment.load(room).with_(**{"localizer.clusterer": "patient"})
+    localizer, sample = experiment.localizer(), experiment.load_samples()[0]
+    with pytest.raises(KeyboardInterrupt):
+        localizer.step(sample.observation)
+    localizer.reset()
+    assert localizer.step(sample.observation).step == 0
 
 
 @pytest.mark.parametrize(

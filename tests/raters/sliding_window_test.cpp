@@ -40,5 +40,17 @@ TEST(SlidingWindow, ResetForgets) {
   EXPECT_DOUBLE_EQ(threshold.omega_max(), 0.6);
 }
 
+TEST(SlidingWindow, ScoresThatStayTheSameReachIt) {
+  for (int n = 1; n <= 60; ++n) {
+    for (int k = 1; k <= n; ++k) {
+      const double score = static_cast<double>(k) / n;
+      SlidingWindow threshold({.window = 10});
+      for (int step = 0; step < 60; ++step) threshold.update(with_scores({score, score, score}));
+      ASSERT_LE(threshold.omega_max(), score) << k << " of " << n;
+      ASSERT_NEAR(threshold.omega_max(), score, 1e-12);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace glocal::raters::sliding_window_test

@@ -1,6 +1,7 @@
 // Notices that the robot is somewhere the map does not show (Section III-D of the paper, eq. 10).
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <optional>
 
@@ -27,10 +28,11 @@ class UnknownPlaceMonitor {
   UnknownPlaceMonitor(const UnknownPlaceParams& params, std::shared_ptr<const GlobalMap> map,
                       double contact_epsilon);
 
-  /// Omega' of eq. 10: the mean, over the last `window` observations that registered points, of the share of
-  /// these points in contact with the map under the best hypothesis. A step without hypotheses is judged by
-  /// the best of the last step that had some. None before the first hypothesis.
-  [[nodiscard]] std::optional<double> update(const LocalMap& local,
+  /// Omega' of eq. 10: the mean, over the last `window` scans with hits, of the share of a scan's hits in
+  /// contact with the map under the best hypothesis. `hits` are those of the latest scan (m, robot frame),
+  /// which `local` has taken in. A step without hypotheses is judged by the best of the last step that had
+  /// some. None before the first hypothesis in the local map's frame.
+  [[nodiscard]] std::optional<double> update(const LocalMap& local, const Points& hits,
                                              const std::vector<Hypothesis>& hypotheses);
 
   /// What each hit of a scan (m, robot frame) says where the robot is at a pose.
@@ -40,17 +42,18 @@ class UnknownPlaceMonitor {
     return omega_place.has_value() && *omega_place < params_.max_contact;
   }
 
-  void reset() { best_.reset(); }
+  void reset() {
+    scans_.clear();
+    best_.reset();
+  }
 
  private:
-  struct Best {
-    Pose3 map_from_local;
-    int epoch;
-  };
   UnknownPlaceParams params_;
   std::shared_ptr<const GlobalMap> map_;
   std::shared_ptr<const ContactIndex> contact_;
-  std::optional<Best> best_;
+  std::deque<Points> scans_;  ///< Hits of the last `window` scans, in the local frame.
+  std::optional<Pose3> best_;
+  int epoch_ = 0;  ///< That of the local frame of both.
 };
 
 }  // namespace glocal

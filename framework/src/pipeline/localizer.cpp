@@ -230,7 +230,7 @@ StepResult Localizer::judged(const LocalMap& local, const Observation& latest, S
   if (!result.is_matching) {
     in_stage(stages_.threshold_policy, result.step, [&] { threshold_policy_->update(result.hypotheses); });
     follow_expected(local, result);
-    result.omega_place = by_contact_->unknown_place.update(local, result.hypotheses);
+    result.omega_place = by_contact_->unknown_place.update(local, latest.scan.hits, result.hypotheses);
     if (!result.hypotheses.empty() && motion_ == Motion::planar) {
       result.hit_kinds = by_contact_->unknown_place.kinds_of(
           latest.scan, seen_from_above(result.hypotheses.front().map_from_robot));

@@ -13,10 +13,9 @@ constexpr double blur = 0.3;
 }  // namespace
 
 void describe(ParamVisitor& v, UnknownPlaceParams& p) {
-  v.field("window", p.window,
-          {.doc = "Number of observations that are averaged (tau' in eq. 10).",
-           .min = 1,
-           .audience = Audience::expert});
+  v.field(
+      "window", p.window,
+      {.doc = "Number of scans that are averaged (tau' in eq. 10).", .min = 1, .audience = Audience::expert});
   v.field("max_contact", p.max_contact,
           {.doc = "The verdict is unknown_place while Omega' (eq. 10) is below this; 0 switches it off.",
            .min = 0.0,
@@ -31,28 +30,17 @@ UnknownPlaceMonitor::UnknownPlaceMonitor(const UnknownPlaceParams& params,
       map_(std::move(map)),
       contact_(contact_index(*map_, "bitset", params.contact_epsilon.value_or(contact_epsilon))) {}
 
-std::optional<double> UnknownPlaceMonitor::update(const LocalMap& local,
+std::optional<double> UnknownPlaceMonitor::update(const LocalMap& local, const Points& hits,
                                                   const std::vector<Hypothesis>& hypotheses) {
-  if (!hypotheses.empty()) best_ = Best{hypotheses.front().map_from_local, local.epoch};
-  if (!best_ || best_->epoch != local.epoch) return std::nullopt;
-
-  // Contact indexes move points in the plane only: others are moved before.
-  const Pose3& pose = best_->map_from_local;
-  const bool is_planar = pose.is_planar();
-  const Points in_map = is_planar ? Points{} : moved(local.points, pose);
-  const Points& points = is_planar ? local.points : in_map;
-  const Transform map_from_points(is_planar ? seen_from_above(pose) : Pose2{});
+  if (local.epoch != epoch_) reset();
+  epoch_ = local.epoch;
+  if (!hits.empty()) scans_.push_back(moved(hits, local.local_from_robot));
+  if (scans_.size() > static_cast<std::size_t>(params_.window)) scans_.pop_front();
+  if (!hypotheses.empty()) best_ = hypotheses.front().map_from_local;
+  if (!best_ || scans_.empty()) return std::nullopt;
   double sum_of_shares = 0.0;
-  int observations = 0;
-  for (std::size_t k = local.ends.size(); k > 0 && observations < params_.window; --k) {
-    const std::size_t end = local.ends[k - 1];
-    const std::size_t begin = k > 1 ? local.ends[k - 2] : 0;
-    if (begin == end) continue;
-    const std::size_t in_contact = contact_->count(points, begin, end - begin, map_from_points);
-    sum_of_shares += static_cast<double>(in_contact) / static_cast<double>(end - begin);
-    ++observations;
-  }
-  return observations == 0 ? std::nullopt : std::optional(sum_of_shares / observations);
+  for (const Points& scan : scans_) sum_of_shares += contact_->share(scan, *best_);
+  return sum_of_shares / static_cast<double>(scans_.size());
 }
 
 std::vector<HitKind> UnknownPlaceMonitor::kinds_of(const Scan& scan, const Pose2& map_from_robot) const {

@@ -7,7 +7,7 @@ export const ofGlossary: Record<string, string> = {
   "score best": "What a matcher ranks hypotheses by. Thresholds, ratings and verdicts use it. It equals Ω unless the matcher takes further evidence into account.",
   "Ω max": "The least score a hypothesis must reach. The paper's policy is the mean over the last τ steps of the mean score of each step (eq. 9).",
   "Ω′":
-    "Mean, over the last τ′ observations, of the share of their points in contact with the map under the best hypothesis (eq. 10). Near 0 in unknown places.",
+    "Mean, over the last τ′ scans, of the share of their hits in contact with the map under the best hypothesis (eq. 10). Near 0 in unknown places.",
   r: "How much a cluster deserves trust: r = α₁ · share of hypotheses + α₂ · (1 − spread in translation) + α₃ · (1 − spread in rotation) + α₄ · mean score (eq. 7).",
   "r̄": "The normalised rating r̄ divides r by the sum over all clusters (eq. 8).",
   cluster: "Hypotheses that mean the same robot pose (eq. 6).",

@@ -115,7 +115,9 @@ TEST_F(LocalizerTest, ReportsWhatTheStagesFound) {
     return Verdict{VerdictKind::ambiguous, std::nullopt, {Pose2{2, 0, 0}, Pose2{1, 0, 0}}, "two"};
   };
   Localizer localizer = make();
-  const StepResult result = localizer.step({12.5, {}, {}});
+  Scan scan;
+  scan.hits = moved(script_->local.points, inverse(script_->local.local_from_robot));
+  const StepResult result = localizer.step({12.5, scan, {}});
   EXPECT_EQ(result.stamp, 12.5);
   EXPECT_EQ(result.local_from_robot, (Pose2{1, 2, 0.5}));
   EXPECT_EQ(result.local_map_epoch, 3);
@@ -156,15 +158,15 @@ TEST_F(LocalizerTest, AStepWithoutHypothesesHasNoBest) {
 }
 
 TEST_F(LocalizerTest, AnUnknownPlaceOverridesTheVerdict) {
-  // One of eight points is on the map.
-  for (int i = 0; i < 8; ++i) script_->local.points.push_back({static_cast<float>(i), 0.0F, 0.0F});
-  script_->local.ends = {8};
+  // One of eight hits is on the map.
+  Observation observation;
+  for (int i = 0; i < 8; ++i) observation.scan.hits.push_back({static_cast<float>(i), 0.0F, 0.0F});
   give({Hypothesis::by_contact({}, 0.9)}, {0.5});
   script_->judge = [](const StepResult&) {
     return Verdict{VerdictKind::localized, Pose2{1, 0, 0}, {Pose2{1, 0, 0}}, "sure"};
   };
   Localizer wary = make(1, {.max_contact = 0.2});
-  const StepResult unknown = wary.step({});
+  const StepResult unknown = wary.step(observation);
   EXPECT_EQ(unknown.omega_place, 0.125);
   EXPECT_EQ(unknown.verdict.kind, VerdictKind::unknown_place);
   EXPECT_EQ(unknown.verdict.map_from_robot, std::nullopt);
@@ -172,7 +174,7 @@ TEST_F(LocalizerTest, AnUnknownPlaceOverridesTheVerdict) {
   EXPECT_EQ(unknown.verdict.why, "only 12 % of what was last seen is on the map");
 
   Localizer bold = make(1, {.max_contact = 0.1});
-  const StepResult localized = bold.step({});
+  const StepResult localized = bold.step(observation);
   EXPECT_EQ(localized.verdict.kind, VerdictKind::localized);
   EXPECT_EQ(localized.verdict.map_from_robot, (Pose2{1, 0, 0}));
 }
@@ -400,15 +402,15 @@ TEST_F(WithPrior, EveryVerdictSaysWhatWasLookedAt) {
 }
 
 TEST_F(WithPrior, InAnUnknownPlaceTheRobotIsPerhapsOutsideOfIt) {
-  // One of eight points is on the map.
-  for (int i = 0; i < 8; ++i) script_->local.points.push_back({static_cast<float>(i), 0.0F, 0.0F});
-  script_->local.ends = {8};
+  // One of eight hits is on the map.
+  Observation observation;
+  for (int i = 0; i < 8; ++i) observation.scan.hits.push_back({static_cast<float>(i), 0.0F, 0.0F});
   give({Hypothesis::by_contact({}, 0.9)}, {0.5});
   LocalizerConfig config = follow(script_);
   config.unknown_place = {.max_contact = 0.2};
   config.prior = around(0, 0.5);
   Localizer localizer(config, catalog_, {map_of_one_point(), 1}, 1);
-  EXPECT_EQ(localizer.step({}).verdict.why,
+  EXPECT_EQ(localizer.step(observation).verdict.why,
             "only 12 % of what was last seen is on the map; only starts within 1 m of x 0, y 0.5 were looked "
             "at: the robot is perhaps outside");
 }

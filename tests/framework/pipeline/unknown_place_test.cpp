@@ -23,85 +23,110 @@ const Pose2 pose{3.0, 0.0, std::numbers::pi / 2.0};
 constexpr Point on{0.0F, 2.0F, 0.0F};
 constexpr Point off{1.0F, 0.0F, 0.0F};
 
-/// A local map whose observations registered these points.
-LocalMap observed(const std::vector<std::vector<Point>>& observations) {
-  LocalMap local;
-  for (const std::vector<Point>& points : observations) {
-    for (const Point& point : points) local.points.push_back(point);
-    local.ends.push_back(local.points.size());
-  }
-  return local;
+Points points(const std::vector<Point>& of) {
+  Points all;
+  for (const Point& point : of) all.push_back(point);
+  return all;
 }
 
-double omega_place(int window, const LocalMap& local) {
+/// Nothing has moved since the local map was begun.
+std::optional<double> update(UnknownPlaceMonitor& monitor, const std::vector<Point>& hits,
+                             const std::vector<Hypothesis>& hypotheses) {
+  return monitor.update({}, points(hits), hypotheses);
+}
+
+/// After these scans.
+double omega_place(int window, const std::vector<std::vector<Point>>& scans) {
   UnknownPlaceMonitor monitor({.window = window, .contact_epsilon = 0.1}, four_points(), 1.0);
-  return monitor.update(local, {{pose, {}, 0.9}}).value_or(-1.0);
+  std::optional<double> result;
+  for (const std::vector<Point>& hits : scans) result = update(monitor, hits, {{pose, {}, 0.9}});
+  return result.value_or(-1.0);
 }
 
-TEST(UnknownPlace, IsTheMeanOfTheSharesOfTheObservations) {
-  // 1 of 4, 2 of 2, 0 of 1: every observation counts the same, however many points it has.
-  const LocalMap local = observed({{on, off, off, off}, {on, on}, {off}});
-  EXPECT_DOUBLE_EQ(omega_place(10, local), (0.25 + 1.0 + 0.0) / 3.0);
+TEST(UnknownPlace, IsTheMeanOfTheSharesOfTheScans) {
+  // 1 of 4, 2 of 2, 0 of 1: every scan counts the same, however many hits it has.
+  EXPECT_DOUBLE_EQ(omega_place(10, {{on, off, off, off}, {on, on}, {off}}), (0.25 + 1.0 + 0.0) / 3.0);
 }
 
 TEST(UnknownPlace, LooksBackAsFarAsTheWindow) {
-  const LocalMap local = observed({{on, off, off, off}, {on, on}, {off}});
-  EXPECT_DOUBLE_EQ(omega_place(3, local), 1.25 / 3.0);
-  EXPECT_DOUBLE_EQ(omega_place(2, local), 0.5);
-  EXPECT_DOUBLE_EQ(omega_place(1, local), 0.0);
+  const std::vector<std::vector<Point>> scans = {{on, off, off, off}, {on, on}, {off}};
+  EXPECT_DOUBLE_EQ(omega_place(3, scans), 1.25 / 3.0);
+  EXPECT_DOUBLE_EQ(omega_place(2, scans), 0.5);
+  EXPECT_DOUBLE_EQ(omega_place(1, scans), 0.0);
 }
 
-TEST(UnknownPlace, ObservationsWithoutPointsDoNotCount) {
-  EXPECT_DOUBLE_EQ(omega_place(2, observed({{off}, {on, off}, {}, {on}, {}, {}})), 0.75);
-  EXPECT_DOUBLE_EQ(omega_place(10, observed({{}, {on}, {}})), 1.0);
-  EXPECT_DOUBLE_EQ(omega_place(10, observed({{}, {}})), -1.0);
+TEST(UnknownPlace, ScansWithoutHitsDoNotCount) {
+  EXPECT_DOUBLE_EQ(omega_place(2, {{off}, {on, off}, {}, {on}, {}, {}}), 0.75);
+  EXPECT_DOUBLE_EQ(omega_place(10, {{}, {on}, {}}), 1.0);
+  EXPECT_DOUBLE_EQ(omega_place(10, {{}, {}}), -1.0);
+}
+
+TEST(UnknownPlace, WhatTheLocalMapHadBeforeCountsInEachScan) {
+  // A robot that stands still adds nothing to its local map but who walks by.
+  UnknownPlaceMonitor monitor({}, four_points(), 0.1);
+  LocalMap local;
+  local.points = points({on, on, on});
+  local.ends = {3};
+  EXPECT_EQ(monitor.update(local, points({on, on, on}), {{pose, {}, 0.9}}), 1.0);
+  local.points.push_back(off);
+  local.ends = {3, 4};
+  EXPECT_DOUBLE_EQ(monitor.update(local, points({on, on, on, off}), {{pose, {}, 0.9}}).value(), 0.875);
+}
+
+TEST(UnknownPlace, EachScanStaysWhereTheRobotWas) {
+  UnknownPlaceMonitor monitor({}, four_points(), 0.1);
+  LocalMap local;
+  // (0, 1) on the map each time: 1 m ahead of where the robot was first, at its side when it has turned
+  // there.
+  EXPECT_EQ(monitor.update(local, points({{1.0F, 0.0F, 0.0F}}), {{Pose3{}, {}, 0.9}}), 1.0);
+  local.local_from_robot = Pose2{1.0, 1.0, std::numbers::pi / 2.0};
+  EXPECT_EQ(monitor.update(local, points({{-1.0F, 0.0F, 0.0F}}), {{Pose3{}, {}, 0.9}}), 1.0);
+  EXPECT_EQ(monitor.update(local, points({{0.0F, 5.0F, 0.0F}}), {{Pose3{}, {}, 0.9}}), 2.0 / 3.0);
 }
 
 TEST(UnknownPlace, IsJudgedByTheBestHypothesis) {
-  const auto map = four_points();
-  UnknownPlaceMonitor monitor({}, map, 0.1);
-  const LocalMap local = observed({{{0.0F, 0.0F, 0.0F}, {0.0F, 3.0F, 0.0F}}});
+  const std::vector<Point> hits = {{0.0F, 0.0F, 0.0F}, {0.0F, 3.0F, 0.0F}};
   // Turned by a quarter both points are met, unturned one of them is.
-  EXPECT_EQ(monitor.update(local, {{pose, {}, 0.9}, {{}, {}, 0.9}}), 1.0);
-  EXPECT_EQ(monitor.update(local, {{{}, {}, 0.9}, {pose, {}, 0.9}}), 0.5);
+  UnknownPlaceMonitor turned({}, four_points(), 0.1);
+  EXPECT_EQ(update(turned, hits, {{pose, {}, 0.9}, {{}, {}, 0.9}}), 1.0);
+  UnknownPlaceMonitor unturned({}, four_points(), 0.1);
+  EXPECT_EQ(update(unturned, hits, {{{}, {}, 0.9}, {pose, {}, 0.9}}), 0.5);
+  // The best of now judges the scans before, too.
+  EXPECT_EQ(update(unturned, {}, {{pose, {}, 0.9}}), 1.0);
 }
 
 TEST(UnknownPlace, PosesInSpaceMoveThePointsInSpace) {
-  const auto map = four_points();
-  UnknownPlaceMonitor monitor({}, map, 0.1);
+  UnknownPlaceMonitor monitor({}, four_points(), 0.1);
   // The robot lies on its left side, 2 m above: what is 2 m to its right is below it.
   const Pose3 on_its_side({1.0, 0.0, 2.0}, exponential({-std::numbers::pi / 2.0, 0.0, 0.0}));
-  const LocalMap local = observed({{{0.0F, 2.0F, 0.0F}, {1.0F, 2.0F, 0.0F}, {0.0F, 0.0F, 2.0F}}});
-  EXPECT_DOUBLE_EQ(monitor.update(local, {{on_its_side, {}, 0.9}}).value(), 2.0 / 3.0);
-  EXPECT_EQ(monitor.update(local, {{{}, {}, 0.9}}), 0.0);
+  const std::vector<Point> hits = {{0.0F, 2.0F, 0.0F}, {1.0F, 2.0F, 0.0F}, {0.0F, 0.0F, 2.0F}};
+  EXPECT_DOUBLE_EQ(update(monitor, hits, {{on_its_side, {}, 0.9}}).value(), 2.0 / 3.0);
+  EXPECT_EQ(update(monitor, {}, {{Pose2{0.0, 0.0, 0.0}, {}, 0.9}}), 0.0);
 }
 
 TEST(UnknownPlace, AStepWithoutHypothesesIsJudgedByTheLastBest) {
-  const auto map = four_points();
-  UnknownPlaceMonitor monitor({}, map, 0.1);
-  EXPECT_EQ(monitor.update(observed({{on}}), {}), std::nullopt);
-  EXPECT_EQ(monitor.update(observed({{on}}), {{pose, {}, 0.9}}), 1.0);
-  EXPECT_EQ(monitor.update(observed({{on}, {off}}), {}), 0.5);
-  EXPECT_EQ(monitor.update(observed({{on}, {off}, {off}, {off}}), {}), 0.25);
+  UnknownPlaceMonitor monitor({}, four_points(), 0.1);
+  EXPECT_EQ(update(monitor, {on}, {}), std::nullopt);
+  EXPECT_EQ(update(monitor, {on}, {{pose, {}, 0.9}}), 1.0);
+  EXPECT_EQ(update(monitor, {off, off}, {}), 2.0 / 3.0);
+  EXPECT_EQ(update(monitor, {off}, {}), 0.5);
 }
 
-TEST(UnknownPlace, APoseInTheFrameOfAnEarlierLocalMapMeansNothing) {
-  const auto map = four_points();
-  UnknownPlaceMonitor monitor({}, map, 0.1);
-  LocalMap local = observed({{on}});
-  EXPECT_EQ(monitor.update(local, {{pose, {}, 0.9}}), 1.0);
+TEST(UnknownPlace, WhatIsInTheFrameOfAnEarlierLocalMapMeansNothing) {
+  UnknownPlaceMonitor monitor({}, four_points(), 0.1);
+  LocalMap local;
+  EXPECT_EQ(monitor.update(local, points({on}), {{pose, {}, 0.9}}), 1.0);
   local.epoch = 1;
-  EXPECT_EQ(monitor.update(local, {}), std::nullopt);
-  EXPECT_EQ(monitor.update(local, {{{}, {}, 0.9}}), 0.0);
-  EXPECT_EQ(monitor.update(local, {}), 0.0);
+  EXPECT_EQ(monitor.update(local, points({off}), {}), std::nullopt);
+  EXPECT_EQ(monitor.update(local, {}, {{pose, {}, 0.9}}), 0.0) << "the scan before is forgotten, too";
 }
 
-TEST(UnknownPlace, ForgetsTheBestWhenReset) {
-  const auto map = four_points();
-  UnknownPlaceMonitor monitor({}, map, 0.1);
-  EXPECT_EQ(monitor.update(observed({{on}}), {{pose, {}, 0.9}}), 1.0);
+TEST(UnknownPlace, ForgetsAllWhenReset) {
+  UnknownPlaceMonitor monitor({}, four_points(), 0.1);
+  EXPECT_EQ(update(monitor, {on}, {{pose, {}, 0.9}}), 1.0);
   monitor.reset();
-  EXPECT_EQ(monitor.update(observed({{on}}), {}), std::nullopt);
+  EXPECT_EQ(update(monitor, {off}, {}), std::nullopt);
+  EXPECT_EQ(update(monitor, {}, {{pose, {}, 0.9}}), 0.0);
 }
 
 TEST(UnknownPlace, IsUnknownBelowTheLimitOnly) {
