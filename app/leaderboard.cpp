@@ -12,6 +12,7 @@
 #include "app/commands.hpp"
 #include "app/experiment_options.hpp"
 #include "app/interrupts.hpp"
+#include "app/job_scripts.hpp"
 #include "app/plain_suite.hpp"
 #include "app/standard_streams.hpp"
 #include "config/builtin_parts.hpp"
@@ -127,9 +128,10 @@ void write_board_page(const BoardOptions& options) {
 }
 
 /// What makes an entry anew.
-std::string renewal(const BoardEntry& entry) {
-  return fmt::format("{2} --out results/{0}/{1} && glocal leaderboard add results/{0}/{1} --force",
-                     entry.suite, entry.method, entry.command());
+std::string renewal(const BoardOptions& options, const BoardEntry& entry) {
+  const std::string board = options.board.empty() ? "" : " --board " + shell_word(options.board);
+  return fmt::format("{2} --out results/{0}/{1} && glocal leaderboard add results/{0}/{1}{3} --force",
+                     entry.suite, entry.method, entry.command(), board);
 }
 
 /// Writes an entry and its line of the history.
@@ -165,17 +167,6 @@ Suite suite_of_entry(const BoardOptions& options, const BoardEntry& entry) {
   return suite;
 }
 
-void add(const BoardOptions& options) {
-  std::vector<BoardEntry> entries = entries_of_folder(options.results);
-  for (BoardEntry& entry : entries) {
-    const Suite suite = suite_of_entry(options, entry);
-    require_whole(entry, suite, options.results);
-    entry.provenance["suite_sha256"] = sha256_of_file(suite.file);
-    if (!options.revision.empty()) entry.provenance["revision"] = options.revision;
-  }
-  for (const BoardEntry& entry : entries) store(options, entry);
-}
-
 /// The variants of a suite with these methods; without any, for what only needs map and drive.
 std::vector<Variant> variants_of(const BoardOptions& options, const Suite& suite,
                                  const std::vector<std::string>& methods, const std::string& share,
@@ -190,6 +181,39 @@ std::vector<Variant> variants_of(const BoardOptions& options, const Suite& suite
   // Sources of what lies in the plane keep to that by themselves.
   for (Variant& variant : variants) variant.experiment.localizer.motion = Motion::free;
   return variants;
+}
+
+/// The name of a built-in method stands for its values: whoever checks the entry runs these.
+void require_values_of_method(const BoardOptions& options, const Suite& suite, const BoardEntry& entry,
+                              Context& context) {
+  if (!find_builtin_part(PartKind::method, entry.method)) return;
+  std::vector<Variant> variants = variants_of(options, suite, {entry.method}, "", context);
+  const CaseResult& first = entry.results.front();
+  const auto same = std::ranges::find_if(variants, [&](const Variant& variant) {
+    return variant.case_name == first.case_name && variant.experiment.seed == first.seed;
+  });
+  if (same != variants.end() &&
+      entry.provenance.at("method_sha256") ==
+          hash_of_method(
+              settings_of(effective_yaml(same->experiment, context.catalog), "effective.yaml", {})))
+    return;
+  throw ConfigError(
+      options.results,
+      fmt::format("its localizer has other values than the method {}; give these a file of another "
+                  "name, and run that with --method FILE",
+                  entry.method));
+}
+
+void add(const BoardOptions& options, Context& context) {
+  std::vector<BoardEntry> entries = entries_of_folder(options.results);
+  for (BoardEntry& entry : entries) {
+    const Suite suite = suite_of_entry(options, entry);
+    require_whole(entry, suite, options.results);
+    require_values_of_method(options, suite, entry, context);
+    entry.provenance["suite_sha256"] = sha256_of_file(suite.file);
+    if (!options.revision.empty()) entry.provenance["revision"] = options.revision;
+  }
+  for (const BoardEntry& entry : entries) store(options, entry);
 }
 
 /// What a check has found of a suite and method.
@@ -223,6 +247,7 @@ void check_suite(const BoardOptions& options, const Suite& suite, Context& conte
     for (std::string& line : differences(*stored, fresh)) check.different.push_back(std::move(line));
   });
   constexpr std::size_t most_shown = 20;
+  const fs::path folder = options.board.empty() ? "leaderboard" : options.board;
   for (const Check& check : checks) {
     const std::size_t n = check.different.size();
     answer("{}, {}: {} starts run anew, {}\n", suite.id(), check.stored.method, check.starts,
@@ -230,8 +255,8 @@ void check_suite(const BoardOptions& options, const Suite& suite, Context& conte
     for (std::size_t i = 0; i < std::min(n, most_shown); ++i) answer("  {}\n", check.different[i]);
     if (n > most_shown) answer("  and {} more\n", n - most_shown);
     if (n > 0)
-      answer("renew {} with:\n  {}\n", entry_file("leaderboard", suite.id(), check.stored.method).string(),
-             renewal(check.stored));
+      answer("renew {} with:\n  {}\n", entry_file(folder, suite.id(), check.stored.method).string(),
+             renewal(options, check.stored));
     if (n > 0) context.exit_code = 1;
   }
 }
@@ -361,7 +386,7 @@ void add_leaderboard(CLI::App& app, Context& context) {
                           "Commit that the results are of (default: theirs)");
   add_board_to(*add_command);
   add_force_to(*add_command);
-  add_command->callback([options] { add(*options); });
+  add_command->callback([options, &context] { add(*options, context); });
 
   CLI::App* check_command = board->add_subcommand(
       "check", "Run a fixed share anew, and say which starts end otherwise than they are stored.");

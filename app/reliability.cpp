@@ -23,6 +23,7 @@
 #include "evaluation/results/results_folder.hpp"
 #include "evaluation/statistics/statistics.hpp"
 #include "glocal/error.hpp"
+#include "glocal/outcome.hpp"
 #include "glocal/pose_covariance.hpp"
 #include "glocal/step_result.hpp"
 
@@ -41,17 +42,15 @@ struct ReliabilityOptions {
 struct Findings {
   Reliability declared;
   Reliability believed;  ///< Declared or not; one step of each trial, so that they are independent.
-  std::size_t trials = 0, right = 0, wrong = 0;
+  std::map<Outcome, std::size_t> trials;
   std::vector<double> squared_errors;  ///< Normalised, of right declarations.
 };
 
 void add_trial(const Json& trial, Findings& findings) {
-  const std::string outcome = trial.at("outcome");
-  ++findings.trials;
-  findings.right += outcome == "right" ? 1 : 0;
-  findings.wrong += outcome == "wrong" ? 1 : 0;
-  if ((outcome != "right" && outcome != "wrong") || !trial.contains("confidence")) return;
-  findings.declared.add(trial.at("confidence"), outcome == "right");
+  const Outcome outcome = glocal::outcome_of(trial.at("outcome").get<std::string>());
+  ++findings.trials[outcome];
+  if ((outcome != Outcome::right && outcome != Outcome::wrong) || !trial.contains("confidence")) return;
+  findings.declared.add(trial.at("confidence"), outcome == Outcome::right);
 }
 
 /// The normalised error squared of a step's estimate against a reference that has errors of its own.
@@ -112,6 +111,24 @@ void add_folder(const std::filesystem::path& folder, const ReliabilityOptions& o
   }
 }
 
+/// The share of wrong ones is that of all trials whose declaration could be judged, had there been one.
+void print_outcomes(std::map<Outcome, std::size_t> trials) {
+  std::size_t all = 0;
+  for (const auto& [outcome, n] : trials) all += n;
+  const std::size_t not_judged = trials[Outcome::declared];
+  std::string text = fmt::format("{} trials: ", all);
+  if (all > not_judged) {
+    const Proportion wrong = wilson(trials[Outcome::wrong], all - not_judged);
+    text += fmt::format("{} right, {} wrong ({:.2f} %, 95 % interval {:.2f} to {:.2f} %), ",
+                        trials[Outcome::right], trials[Outcome::wrong], 100.0 * wrong.value,
+                        100.0 * wrong.low, 100.0 * wrong.high);
+  }
+  text += fmt::format("{} without a declaration", trials[Outcome::undecided]);
+  if (not_judged > 0) text += fmt::format(", {} declared without a reference pose", not_judged);
+  if (trials[Outcome::failed] > 0) text += fmt::format(", {} failed", trials[Outcome::failed]);
+  answer("{}\n", text);
+}
+
 void print_bins(const char* title, const Reliability& reliability) {
   answer("\n{}\n", title);
   answer("  confidence    poses   mean    right   95 % interval\n");
@@ -128,12 +145,7 @@ void reliability(const ReliabilityOptions& options) {
     add_folder(folder, options, findings);
   });
   faults.report();
-  const Proportion wrong = wilson(findings.wrong, findings.trials);
-  answer(
-      "{} trials: {} right, {} wrong ({:.2f} %, 95 % interval {:.2f} to {:.2f} %), {} without a "
-      "declaration\n",
-      findings.trials, findings.right, findings.wrong, 100.0 * wrong.value, 100.0 * wrong.low,
-      100.0 * wrong.high, findings.trials - findings.right - findings.wrong);
+  print_outcomes(findings.trials);
   print_bins("Declared poses", findings.declared);
   print_bins("Best poses, declared or not: one step of each trial", findings.believed);
   if (findings.squared_errors.empty()) return;

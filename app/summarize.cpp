@@ -14,6 +14,7 @@
 #include "evaluation/comparison/named_runs.hpp"
 #include "evaluation/results/number_text.hpp"
 #include "evaluation/results/stored_figures.hpp"
+#include "evaluation/results/summary_text.hpp"
 
 namespace glocal::app {
 namespace {
@@ -97,15 +98,6 @@ double median(const Json& row, const char* key) {
 std::string per_cent(const Json& share) {
   const auto of = [&](const char* key) { return 100.0 * share.at(key).get<double>() + 0.0; };
   return fmt::format("{:.1f} % ({:.1f} to {:.1f} %)", of("value"), of("low"), of("high"));
-}
-
-/// With those that count neither as right nor as wrong for other reasons.
-std::string undecided_cell(const Json& trials) {
-  std::string cell = trials.at("undecided").dump();
-  if (trials.contains("failed")) cell += fmt::format(", {} failed", trials.at("failed").dump());
-  if (trials.contains("declared_without_reference"))
-    cell += fmt::format(", {} not judged", trials.at("declared_without_reference").dump());
-  return cell;
 }
 
 std::string markdown_head() {

@@ -227,9 +227,10 @@ std::optional<std::string> why_times_differ(const NamedRun& run, const NamedRun&
   const auto refuse = [&](const std::string& mine, const std::string& other) {
     return mine + ", and " + other;
   };
-  if (a.host != b.host || a.cpu != b.cpu || a.threads != b.threads) {
+  if (a.host != b.host || a.cpu != b.cpu || a.threads != b.threads || a.threads == 0) {
     const auto text = [](const Machine& m) {
-      return fmt::format("{} ({}), {} threads", m.host, m.cpu, m.threads);
+      return fmt::format("{} ({}), {} threads", m.host, m.cpu,
+                         m.threads == 0 ? "several numbers of" : std::to_string(m.threads));
     };
     return refuse(text(a), text(b));
   }

@@ -328,8 +328,10 @@ Comparison compare(const std::vector<NamedRun>& runs, std::size_t baseline_run,
   for (std::size_t m = 0; m < methods.size(); ++m) {
     comparison.methods.push_back(method_figures(runs, methods[m], m, paired, measured));
     const std::vector<bool> has_times = cells_with_times(runs, paired, m, baseline);
+    // A median of times is one of all cells.
     auto& medians = comparison.methods.back().medians;
-    for (std::size_t i = comparable(measured, has_times).size(); i < medians.size(); ++i) medians[i].reset();
+    if (std::ranges::find(has_times, false) != has_times.end())
+      for (std::size_t i = measures_but_time().size(); i < medians.size(); ++i) medians[i].reset();
     for (const auto& places : cases)
       comparison.methods.back().cases.push_back(case_figures(
           {paired, places, paired.results[baseline], paired.results[m], has_times}, m == baseline));

@@ -25,15 +25,6 @@ double two_digits(double value) {
   return std::stod(fmt::format("{:.2g}", value));
 }
 
-/// All that the answer of a method follows from, besides the program.
-std::string hash_of_method(const StoredRun& run) {
-  std::string text;
-  for (const auto& [path, setting] : run.settings) {
-    if (path.starts_with("localizer.")) text += path + "=" + setting.identity + "\n";
-  }
-  return sha256_of_text(text);
-}
-
 Json provenance_of_entry(const StoredRun& run, const std::string& command) {
   const Json& from = run.provenance;
   const std::string began = from.value("began", std::string());
@@ -42,7 +33,7 @@ Json provenance_of_entry(const StoredRun& run, const std::string& command) {
           {"date", began.substr(0, began.find('T'))},
           {"command", command},
           {"cpu", run.machine.cpu},
-          {"method_sha256", hash_of_method(run)}};
+          {"method_sha256", hash_of_method(run.settings)}};
 }
 
 /// A folder of results as part of an entry.
@@ -167,6 +158,14 @@ class Change {
 };
 
 }  // namespace
+
+std::string hash_of_method(const std::map<std::string, Setting>& settings) {
+  std::string text;
+  for (const auto& [path, setting] : settings) {
+    if (path.starts_with("localizer.")) text += path + "=" + setting.identity + "\n";
+  }
+  return sha256_of_text(text);
+}
 
 std::vector<BoardEntry> entries_of_folder(const fs::path& folder) {
   std::vector<BoardEntry> entries;

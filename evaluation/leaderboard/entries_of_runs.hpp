@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,9 @@
 #include "evaluation/running/experiment_loader.hpp"
 
 namespace glocal {
+
+/// All of an experiment's values that the answer of a method follows from.
+[[nodiscard]] std::string hash_of_method(const std::map<std::string, Setting>& settings);
 
 /// The entries of all methods whose results on a suite lie in a folder, each with all its cases and seeds as
 /// far as they are there. Throws ConfigError for damaged results, for those that are not complete, and where

@@ -58,17 +58,33 @@ std::vector<std::size_t> JournaledTrials::missing() const {
 }
 
 void JournaledTrials::tell_processes(Json& provenance) const {
-  std::set<std::string> hosts = {provenance.at("host")};
-  std::set<std::size_t> jobs = {provenance.at("jobs")};
+  std::set<std::size_t> journals;
   for (std::size_t trial = 0; trial < samples_.size(); ++trial) {
     const auto finished = scan_.finished().find(id(trial));
-    if (finished == scan_.finished().end()) continue;
-    const JournalScan::Journal& journal = scan_.journals()[finished->second.entry.journal];
-    hosts.insert(journal.host);
-    jobs.insert(journal.jobs);
+    if (finished != scan_.finished().end()) journals.insert(finished->second.entry.journal);
   }
+  std::set<std::string> hosts = {provenance.at("host")}, processors = {provenance.at("cpu")};
+  std::set<std::size_t> jobs = {provenance.at("jobs")}, threads = {provenance.at("threads")};
+  for (const std::size_t journal : journals) {
+    hosts.insert(scan_.journals()[journal].host);
+    jobs.insert(scan_.journals()[journal].jobs);
+  }
+  const auto descriptions = scan_.variants().find(variant_);
+  if (descriptions != scan_.variants().end()) {
+    for (const JournalScan::Place& place : descriptions->second) {
+      if (!journals.contains(place.journal)) continue;
+      const Json of_process = parse_json(scan_.text_at(place)).at("provenance");
+      processors.insert(of_process.at("cpu"));
+      threads.insert(whole_number(of_process, "threads"));
+    }
+  }
+  const auto the_only = [](const std::set<std::size_t>& numbers) {
+    return numbers.size() == 1 ? *numbers.begin() : 0;
+  };
   provenance["host"] = fmt::format("{}", fmt::join(hosts, ", "));
-  provenance["jobs"] = jobs.size() == 1 ? *jobs.begin() : 0;
+  provenance["cpu"] = fmt::format("{}", fmt::join(processors, ", "));
+  provenance["threads"] = the_only(threads);
+  provenance["jobs"] = the_only(jobs);
 }
 
 std::optional<JournalEntry> JournaledTrials::take(std::size_t trial, OutputFolder& folder) const {

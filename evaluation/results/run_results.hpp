@@ -27,8 +27,9 @@ class JournaledTrials {
   /// What a trial has left, its own files written to the folder; none if it is missing. Throws a
   /// std::exception where it is not as a journal has it.
   std::optional<JournalEntry> take(std::size_t trial, OutputFolder& folder) const;
-  /// Adds to the provenance of a process those that have finished trials already: all hosts, and how many
-  /// trials ran side by side; 0 where these were not always as many.
+  /// Adds to the provenance of a process those that have finished trials already: all hosts and processors,
+  /// and how many threads a trial had and how many trials ran side by side; 0 where these were not always as
+  /// many.
   void tell_processes(nlohmann::ordered_json& provenance) const;
 
  private:

@@ -73,9 +73,10 @@ void Summary::add(const TrialFigures& trial) {
 
 Json Summary::figures() const {
   Json trials = {{"count", count_}, {"right", right_}, {"wrong", wrong_}, {"undecided", undecided_}};
-  if (declared_ > 0) {
+  if (declared_ > 0) trials["declared_without_reference"] = declared_;
+  // Stored trials do not tell where odometry was.
+  if (!declarations_.empty()) {
     const Agreement agreement = agreement_of(declarations_);
-    trials["declared_without_reference"] = declared_;
     trials["agreement"] = {{"pairs", agreement.pairs}, {"disagree_at_m", agreement.disagree_at_m}};
   }
   if (failed_ > 0) trials["failed"] = failed_;

@@ -22,7 +22,7 @@ int count(const nlohmann::ordered_json& trials, const char* outcome) {
 }
 
 /// Whether declared poses that nothing can judge agree with each other.
-std::string agreement_text(const nlohmann::ordered_json& agreement) {
+std::string agreement_text(const nlohmann::ordered_json& agreement, int declared) {
   const int pairs = agreement.at("pairs").get<int>();
   const auto& disagree = agreement.at("disagree_at_m");
   if (pairs == 0) return "";
@@ -34,7 +34,7 @@ std::string agreement_text(const nlohmann::ordered_json& agreement) {
   return fmt::format(
       "  agreement           {} of {} declared poses disagree with the one before, carried on by odometry: "
       "at {} m\n",
-      disagree.size(), pairs + 1, listed(places));
+      disagree.size(), declared, listed(places));
 }
 
 /// Of a run without references there is nothing that success could mean.
@@ -47,7 +47,7 @@ std::string outcomes_text(const nlohmann::ordered_json& trials, const nlohmann::
                   declared > 0 ? fmt::format("{} declared without reference pose, ", declared) : "", judged,
                   count(trials, "undecided"));
   if (trials.contains("failed")) text += fmt::format("  failed              {}\n", count(trials, "failed"));
-  if (trials.contains("agreement")) text += agreement_text(trials["agreement"]);
+  if (trials.contains("agreement")) text += agreement_text(trials["agreement"], declared);
   if (judged.empty()) return text;
   return text + fmt::format("  success             {:.1f} % (95 %: {:.1f} to {:.1f} %)\n",
                             100.0 * success.at("value").get<double>(),
@@ -88,18 +88,29 @@ std::string summary_text(const nlohmann::ordered_json& s) {
   return text;
 }
 
+std::string undecided_cell(const nlohmann::ordered_json& trials) {
+  std::string cell = trials.at("undecided").dump();
+  if (trials.contains("failed")) cell += fmt::format(", {} failed", trials.at("failed").dump());
+  if (trials.contains("declared_without_reference"))
+    cell += fmt::format(", {} not judged", trials.at("declared_without_reference").dump());
+  return cell;
+}
+
 std::string variants_text(const std::vector<std::pair<std::string, nlohmann::ordered_json>>& variants) {
-  std::size_t width = 7;
-  for (const auto& [name, summary] : variants) width = std::max(width, name.size());
+  std::size_t width = 7, undecided_width = 9;
+  for (const auto& [name, summary] : variants) {
+    width = std::max(width, name.size());
+    undecided_width = std::max(undecided_width, undecided_cell(summary.at("trials")).size());
+  }
   std::string text =
-      fmt::format("{:<{}}  {:>6}  {:>6}  {:>6}  {:>9}  {:>14}  {:>21}\n", "variant", width, "trials", "right",
-                  "wrong", "undecided", "steps (median)", "step, wall ms (median)");
+      fmt::format("{:<{}}  {:>6}  {:>6}  {:>6}  {:>{}}  {:>14}  {:>21}\n", "variant", width, "trials",
+                  "right", "wrong", "undecided", undecided_width, "steps (median)", "step, wall ms (median)");
   for (const auto& [name, summary] : variants) {
     const auto& trials = summary.at("trials");
     const bool any_right = trials.at("right").get<int>() > 0;
-    text += fmt::format("{:<{}}  {:>6}  {:>6}  {:>6}  {:>9}  {:>14}  {:>22.1f}{}\n", name, width,
+    text += fmt::format("{:<{}}  {:>6}  {:>6}  {:>6}  {:>{}}  {:>14}  {:>22.1f}{}\n", name, width,
                         trials.at("count").get<int>(), trials.at("right").get<int>(),
-                        trials.at("wrong").get<int>(), trials.at("undecided").get<int>(),
+                        trials.at("wrong").get<int>(), undecided_cell(trials), undecided_width,
                         any_right ? fmt::format("{:g}", median(summary.at("steps_to_localize"))) : "-",
                         median(summary.at("step_ms")),
                         summary.at("complete").get<bool>() ? "" : "  (interrupted: some trials are missing)");

@@ -44,6 +44,13 @@ bool is_unfinished(const fs::path& folder, bool is_final) {
   return is_final ? complete == false : complete.has_value();
 }
 
+Fault results_of_another_run(const fs::path& folder, const std::string& why) {
+  return {folder.string(), 0, 0,
+          fmt::format("output: the folder has results of another run: {}; choose another folder with --out, "
+                      "or replace earlier results with --force",
+                      why)};
+}
+
 }  // namespace
 
 VariantResult result_of_variant(const std::string& name, const fs::path& folder, const Json& summary) {
@@ -127,12 +134,7 @@ void ExperimentRunner::take_finished() {
     const fs::path folder = folder_of(variant.name);
     if (!is_results_folder(folder)) return false;
     const auto why = why_other(folder, variant);
-    if (why && !options_.force) {
-      faults.add({folder.string(), 0, 0,
-                  fmt::format("output: the folder has results of another run: {}; choose another folder "
-                              "with --out, or replace earlier results with --force",
-                              *why)});
-    }
+    if (why && !options_.force) faults.add(results_of_another_run(folder, *why));
     if (why || is_unfinished(folder, true)) return false;
     FaultCollector damage;
     const bool is_whole = damage.collect([&] { add_result(variant.name, read_results(folder).summary); });
@@ -150,6 +152,11 @@ void ExperimentRunner::check_outputs() {
   FaultCollector faults;
   for (Variant& variant : variants_) {
     faults.collect([&] {
+      const fs::path interrupted = folder_of(variant.name);
+      if (!options_.force && is_results_folder(interrupted) && is_unfinished(interrupted, true)) {
+        if (const auto why = why_other(interrupted, variant))
+          throw ConfigError({results_of_another_run(interrupted, *why)});
+      }
       OutputFolder::check(folder_of(variant.name), options_.force,
                           [&](const fs::path& earlier, bool is_final) {
                             return is_unfinished(earlier, is_final) && !why_other(earlier, variant);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <map>
 #include <set>
@@ -170,6 +171,13 @@ ParameterFigures figures_of(const std::vector<TalliedSetting>& settings, const M
   return figures;
 }
 
+/// Or all, where none is: one that lacks a case would tell the cases apart in place of the values.
+std::vector<TalliedSetting> complete_ones(std::vector<TalliedSetting> settings) {
+  const auto is_complete = [](const TalliedSetting& setting) { return setting.result.complete; };
+  if (std::ranges::any_of(settings, is_complete)) std::erase_if(settings, std::not_fn(is_complete));
+  return settings;
+}
+
 bool are_times_comparable(const std::vector<NamedRun>& runs) {
   return std::none_of(runs.begin(), runs.end(),
                       [&](const NamedRun& run) { return why_times_differ(run, runs.front()).has_value(); });
@@ -202,7 +210,7 @@ SweepAnalysis analyse_sweep(const std::vector<NamedRun>& runs, const MapChoice& 
   if (!baseline.empty()) check_setting(baseline, settings);
   for (const TalliedSetting& setting : settings) analysis.settings.push_back(setting.result);
   std::stable_sort(analysis.settings.begin(), analysis.settings.end(), is_better);
-  analysis.parameters = figures_of(settings, map);
+  analysis.parameters = figures_of(complete_ones(settings), map);
   compare_settings(runs, settings, baseline, analysis);
   return analysis;
 }

@@ -118,6 +118,18 @@ TEST_F(Leaderboard, AnEntryNamesAllProcessorsThatTimesAreOf) {
   EXPECT_EQ(entry()["provenance"]["cpu"], one + ", another");
 }
 
+TEST_F(Leaderboard, TheNameOfAMethodStandsForItsValues) {
+  pin();
+  good(run("run --quiet --suite tiny@1 --method few --set localizer.contact_epsilon=0.06 --out " +
+           file("results")));
+  EXPECT_THAT(refusal(run("leaderboard add " + file("results"))),
+              HasSubstr("results: error: its localizer has other values than the method few; "));
+  EXPECT_FALSE(std::filesystem::exists(file("leaderboard")));
+  folder_.write("wider.yaml", "localizer: {contact_epsilon: 0.06, matcher: {ransam: {iterations: 2000}}}\n");
+  good(run("run --quiet --suite tiny@1 --method " + file("wider.yaml") + " --out " + file("wider")));
+  EXPECT_THAT(good(run("leaderboard add " + file("wider"))).out, HasSubstr("wider on tiny@1: "));
+}
+
 TEST_F(Leaderboard, ACheckSaysWhichStartsEndOtherwise) {
   pin();
   run_and_add();
@@ -128,6 +140,9 @@ TEST_F(Leaderboard, ACheckSaysWhichStartsEndOtherwise) {
   EXPECT_THAT(
       other.out,
       HasSubstr("renew leaderboard/tiny@1/few.json with:\n  glocal run --suite tiny@1 --method few "));
+  const Answer named = run("leaderboard check tiny@1 --share 1 --board " + file("leaderboard"));
+  EXPECT_THAT(named.out, HasSubstr("renew " + file("leaderboard/tiny@1/few.json") + " with:\n"));
+  EXPECT_THAT(named.out, HasSubstr(" --board " + file("leaderboard") + " --force\n"));
 }
 
 TEST_F(Leaderboard, RenewingNeedsForceAndComparesOldAndNew) {

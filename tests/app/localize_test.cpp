@@ -126,8 +126,9 @@ TEST_F(Localize, ARealDriveIsFoundInItsBuildingsPlan) {
           " --set observations.bag.reference.y=3.34242 --set observations.bag.reference.yaw_deg=-1.53605" +
           " --set observations.bag.reference.time_shift=0.135 --out " + file("answer")));
   EXPECT_THAT(answer.out, HasSubstr("trials              6: 6 right, 0 wrong, 0 undecided"));
-  EXPECT_THAT(content(file("answer.yaml")),
-              HasSubstr("# Not in here, but changed on the command line: --set observations.bag.reference.x="));
+  EXPECT_THAT(
+      content(file("answer.yaml")),
+      HasSubstr("# Not in here, but changed on the command line: --set observations.bag.reference.x="));
 }
 
 TEST_F(Localize, WithoutItsPluginAnOctreeIsACloudOfOccupiedVoxels) {

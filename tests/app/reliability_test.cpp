@@ -75,6 +75,18 @@ TEST_F(ReliabilityCommand, CountsByConfidence) {
   EXPECT_THAT(answer.out, HasSubstr("0.10 - 0.30        2  0.225    0.500"));
 }
 
+TEST_F(ReliabilityCommand, TellsTrialsThatNothingJudges) {
+  run_lab();
+  const nlohmann::json undecided = {{"outcome", "undecided"}}, failed = {{"outcome", "failed"}};
+  replace_lines(folder(), {declared("right"), declared("declared"), undecided, failed, failed}, {});
+  EXPECT_THAT(run("reliability " + folder()).out,
+              HasSubstr("5 trials: 1 right, 0 wrong (0.00 %, 95 % interval 0.00 to 48.99 %), 1 without a "
+                        "declaration, 1 declared without a reference pose, 2 failed\n"));
+  replace_lines(folder(), {declared("declared"), declared("declared")}, {});
+  EXPECT_THAT(run("reliability " + folder()).out,
+              HasSubstr("2 trials: 0 without a declaration, 2 declared without a reference pose\n"));
+}
+
 TEST_F(ReliabilityCommand, WeighsErrorsByCovarianceAndReference) {
   run_lab();
   // Only the first declared step of a trial counts, and only within half a metre and 10 degrees.

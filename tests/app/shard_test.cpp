@@ -112,6 +112,15 @@ TEST_F(Shards, OfAnExperimentWithoutVariants) {
   good(run("summarize " + file("shared")));
 }
 
+TEST_F(Shards, OtherNumbersOfThreadsAreTold) {
+  write_experiment("trials: {every_scan: 2, max_steps: 6}\n");
+  good(run_shard("1/2", "--quiet --threads 1"));
+  good(run_shard("2/2", "--quiet --threads 2"));
+  good(merge());
+  EXPECT_EQ(json("shared/provenance.json")["threads"], 0);
+  good(run("summarize " + file("shared")));
+}
+
 TEST_F(Shards, OtherNumbersOfShardsDoOnlyWhatIsMissing) {
   good(run_shard("1/4"));
   const auto first = finished();

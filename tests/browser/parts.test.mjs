@@ -170,6 +170,9 @@ test("the best come first: right less wrong, then fewer steps, and by nothing th
   assert.deepEqual(order(runs), ["quick", "slow", "wrong", "none"]);
   const judged = run("slow_judged", variant("slow", { case: "other", role: "judge" }), [trial("right"), trial("right"), trial("right"), trial("right"), trial("right")]);
   assert.deepEqual(order([...runs, judged]), ["quick", "slow", "wrong", "none"]);
+  // Who lacks a case may lack the harder one.
+  const hard = (setting, outcome) => run(`${setting}_hard`, variant(setting, { case: "hard" }), [trial(outcome), trial("wrong"), trial("wrong")]);
+  assert.deepEqual(order([...runs, hard("slow", "right"), hard("none", "wrong")]), ["slow", "none", "quick", "wrong"]);
   const { steps, right, undecided } = answers.answerOf(answers.groupOf("slow", [runs[1]]));
   assert.deepEqual([steps, right, undecided], [7, 2, 1]);
 });

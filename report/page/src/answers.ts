@@ -7,6 +7,8 @@ export interface Group {
   name: string;
   runs: Run[];
   trials: Trial[];
+  /** Whether it has all trials, of all cases and seeds that any other one has: harder cases may be what others lack. */
+  isWhole: boolean;
 }
 
 /** What is told apart: settings over all cases and seeds, each case of them, or single runs. */
@@ -57,11 +59,17 @@ export function groupsOf(runs: Run[], level: Level): Group[] {
     const name = nameOf(run, actual, isOfMany);
     groups.set(name, [...(groups.get(name) ?? []), run]);
   }
-  return [...groups].map(([name, its]) => groupOf(name, its));
+  const places = actual === "setting" ? placesOf(runs) : 0;
+  return [...groups].map(([name, its]) => groupOf(name, its, placesOf(its) >= places && its.every(({ summary }) => summary?.complete ?? true)));
 }
 
-export function groupOf(name: string, runs: Run[]): Group {
-  return { name, runs, trials: runs.flatMap(({ trials }) => trials) };
+export function groupOf(name: string, runs: Run[], isWhole = true): Group {
+  return { name, runs, trials: runs.flatMap(({ trials }) => trials), isWhole };
+}
+
+/** How many cases with a seed they are chosen by. */
+function placesOf(runs: Run[]): number {
+  return new Set(chosenBy(runs).map(({ provenance }) => JSON.stringify([provenance?.variant?.case, provenance?.variant?.seed]))).size;
 }
 
 /** The levels that tell different things apart. */
@@ -117,9 +125,9 @@ export function scoreOf({ right, wrong, trials }: Answer): number {
   return trials.length > 0 ? (right - wrong) / trials.length : -Infinity;
 }
 
-/** The best come first: by score, then by fewer steps; those alike stay in their order. */
+/** The best come first: whole ones by score, then by fewer steps; those alike stay in their order. */
 export function byAnswer(a: Answer, b: Answer): number {
-  return scoreOf(b) - scoreOf(a) || (a.steps ?? Infinity) - (b.steps ?? Infinity) || 0;
+  return Number(b.isWhole) - Number(a.isWhole) || scoreOf(b) - scoreOf(a) || (a.steps ?? Infinity) - (b.steps ?? Infinity) || 0;
 }
 
 /** Runs on cases that nothing may be chosen by. */
@@ -127,9 +135,14 @@ export function isJudged({ provenance }: Run): boolean {
   return provenance?.variant?.role === "judge";
 }
 
+/** Those without the judged ones, or all where there is nothing else. */
+function chosenBy(runs: Run[]): Run[] {
+  return runs.every(isJudged) ? runs : runs.filter((run) => !isJudged(run));
+}
+
 /** The best groups of runs first, and in them all of their runs. */
 export function bestFirst(runs: Run[], level: Level): Group[] {
-  const scored = (group: Group): Answer => answerOf(groupOf(group.name, group.runs.some((run) => !isJudged(run)) ? group.runs.filter((run) => !isJudged(run)) : group.runs));
+  const scored = (group: Group): Answer => answerOf(groupOf(group.name, chosenBy(group.runs), group.isWhole));
   return groupsOf(runs, level)
     .map((group) => ({ group, answer: scored(group) }))
     .sort((a, b) => byAnswer(a.answer, b.answer))

@@ -41,7 +41,7 @@ function columnsOf(store: Store, hasDeclared: boolean, hasFailed: boolean): Colu
   const name: Column<Answer> = {
     name: "name",
     word: "run or setting",
-    cell: (answer) => el("span", { class: "named" }, el("button", { type: "button", "data-run": store.report.runs.indexOf(answer.runs[0]), click: () => store.chooseRun(store.report.runs.indexOf(answer.runs[0])) }, answer.name), bar(answer)),
+    cell: (answer) => el("span", { class: "named" }, el("button", { type: "button", "data-run": store.report.runs.indexOf(answer.runs[0]), click: () => store.chooseRun(store.report.runs.indexOf(answer.runs[0])) }, answer.isWhole ? answer.name : `${answer.name} (incomplete)`), bar(answer)),
     order: { by: ({ name: its }) => its, best: "least" },
   };
   return [
@@ -104,7 +104,7 @@ export class Ranking {
         this.told,
       ),
       this.table.element,
-      el("p", { class: "note" }, "The best first: by right less wrong trials, as a share of all, then by fewer steps. Steps, way and errors: medians of right trials. Time: median of steps."),
+      el("p", { class: "note" }, "The best first: by right less wrong trials, as a share of all, then by fewer steps; last what lacks a case, a seed or trials. Steps, way and errors: medians of right trials. Time: median of steps."),
     );
     store.subscribe((change) => change.run && this.mark());
     this.fill();

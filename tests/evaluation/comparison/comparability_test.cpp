@@ -100,6 +100,11 @@ TEST_F(Comparability, TellsOfTimesTakenSideBySideAndUnderAnotherLoad) {
   EXPECT_THAT(warnings(), ElementsAre(HasSubstr("processes of several numbers of jobs, and")));
 }
 
+TEST_F(Comparability, TellsOfTimesWithSeveralNumbersOfThreads) {
+  runs_[0].results.machine.threads = b().machine.threads = 0;
+  EXPECT_THAT(warnings(), ElementsAre(HasSubstr("several numbers of threads, and ")));
+}
+
 TEST_F(Comparability, TellsOfTrialsThatReachTheNextStart) {
   // Starts are 100 m apart; 3 of 30 are no more than a tenth.
   for (std::size_t i = 0; i < 3; ++i) trial(i).distance_m = 101.0;

@@ -289,6 +289,20 @@ TEST(Comparison, TestsNoTimesThatTellOfTheMachine) {
   EXPECT_THAT(comparison.pairs.front().warnings, IsEmpty());
 }
 
+TEST(Comparison, AMedianOfTimesIsOneOfAllRuns) {
+  std::vector<NamedRun> runs = {
+      sweep_run({.setting = "a", .seed = 1}, "rr"), sweep_run({.setting = "a", .seed = 2}, "rr"),
+      sweep_run({.setting = "b", .seed = 1}, "rr"), sweep_run({.setting = "b", .seed = 2}, "rr")};
+  for (NamedRun& run : runs) {
+    for (auto& [start, trial] : run.results.trials) trial.step_cpu_ms = 3.0;
+  }
+  EXPECT_TRUE(compare(runs, 0).methods[1].medians.at(4));
+  runs[3].results.machine.host = "other";
+  const Comparison comparison = compare(runs, 0);
+  EXPECT_FALSE(comparison.methods[1].medians.at(4));
+  EXPECT_EQ(comparison.pairs.front().measures.at(4).trials, 2U) << "the others are compared";
+}
+
 TEST(Comparison, TakesOnlyStartsThatAllHave) {
   std::vector<NamedRun> runs = slow_and_quick();
   runs[0].results.trials.erase(runs[0].results.trials.begin());

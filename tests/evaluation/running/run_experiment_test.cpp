@@ -124,6 +124,17 @@ TEST_F(RunExperiment, TellsThatItsTrialsRanSideBySideAtTimes) {
   EXPECT_EQ(read_results(folder_.path() / "out").machine.jobs, 0U);
 }
 
+TEST_F(RunExperiment, AnInterruptedOneOfOtherValuesIsNotReplaced) {
+  bool is_begun = false;
+  RunObserver observer;
+  observer.trial = [&](const TrialEnd&) { is_begun = true; };
+  observer.stop = [&] { return is_begun; };
+  EXPECT_FALSE(run(to("out"), observer).complete);
+  write_experiment("seed: 77\n");
+  EXPECT_THAT(error_of([&] { return run(to("out")); }),
+              HasSubstr("output: the folder has results of another run: it is of other values"));
+}
+
 TEST_F(RunExperiment, WhatIsInNoFileIsAnInput) {
   write_experiment("variants: {list: {one: {}}}\n");
   RunOptions options = to("all");

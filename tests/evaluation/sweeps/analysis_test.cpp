@@ -122,6 +122,24 @@ TEST(Sweep, IncompleteSettingsAreLastAndNeverTheBest) {
   EXPECT_FALSE(analysis.chance.has_value()) << "there is nothing to be better than";
 }
 
+TEST(Sweep, IncompleteSettingsDoNotCountInWhatAParameterDoes) {
+  const auto run = [](const std::string& setting, const std::string& value, std::uint64_t seed,
+                      const std::string& outcomes) {
+    return sweep_run({.setting = setting, .values = {{"localizer.clusterer", value}}, .seed = seed},
+                     outcomes);
+  };
+  // The second seed is the harder one, and c lacks it.
+  std::vector<NamedRun> runs = {run("a", "k", 1, "rr"), run("a", "k", 2, "uu"), run("b", "d", 1, "rr"),
+                                run("b", "d", 2, "ru"), run("c", "d", 1, "rr")};
+  const auto& levels = analyse_sweep(runs).parameters.effects.at(0).levels;
+  EXPECT_DOUBLE_EQ(levels.at(0).outcome.success.value, 0.5);
+  EXPECT_DOUBLE_EQ(levels.at(1).outcome.success.value, 0.75);
+  // Where all lack something, that is all there is.
+  for (NamedRun& each : runs) each.results.complete = false;
+  EXPECT_DOUBLE_EQ(analyse_sweep(runs).parameters.effects.at(0).levels.at(1).outcome.success.value,
+                   5.0 / 6.0);
+}
+
 /// Two parameters of a grid, right at so many of 4 starts.
 std::vector<NamedRun> grid() {
   std::vector<NamedRun> runs;
