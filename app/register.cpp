@@ -256,7 +256,7 @@ void add_register(CLI::App& app, Context& context) {
   command
       ->add_option("--voxel-size", options->voxel_size,
                    "Side of voxels, m (made from the clouds unless given)")
-      ->check(above_zero());
+      ->check(within(0.01, 100.0));
   command
       ->add_option("--within", options->within,
                    "Up to what error a pair's pose is right, m (1.5 voxels unless given)")

@@ -61,7 +61,11 @@ Manifest manifest_of(std::size_t trials) {
 nlohmann::ordered_json description() {
   return {{"effective", "schema: 1\n"},
           {"provenance",
-           {{"host", "a"}, {"cpu", "b"}, {"jobs", 1}, {"inputs_sha256", nlohmann::ordered_json::object()}}},
+           {{"host", "a"},
+            {"cpu", "b"},
+            {"threads", 1},
+            {"jobs", 1},
+            {"inputs_sha256", nlohmann::ordered_json::object()}}},
           {"name", "synthetic"},
           {"seed", 1},
           {"steps", false},

@@ -61,9 +61,10 @@ struct Evidence {
 /// starts in clean worlds (docs/method.md). Never 1, however clear the margin is: a place off the map has no
 /// hypothesis.
 double confidence_of(const Evidence& e, double log_odds_before) {
-  const double seen = e.beam_lead ? -2.74 + 31.93 * e.mean_margin + 1.204 * e.contact * std::log(e.views) +
-                                        0.713 * *e.beam_lead
-                                  : -1.5 + 28.5 * e.margin + 0.45 * std::log(e.views);
+  const double views = std::log(std::max(e.views, 1));  // none yet, where the step's scan is empty
+  const double seen = e.beam_lead
+                          ? -2.74 + 31.93 * e.mean_margin + 1.204 * e.contact * views + 0.713 * *e.beam_lead
+                          : -1.5 + 28.5 * e.margin + 0.45 * views;
   return 0.998 / (1.0 + std::exp(-seen - log_odds_before));
 }
 

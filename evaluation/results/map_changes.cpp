@@ -35,6 +35,28 @@ std::pair<int, int> square_of(const Pose2& grid_from_place, double side) {
           static_cast<int>(std::floor(grid_from_place.y / side))};
 }
 
+/// Shares of a segment's length; nothing if `high` is below `low`.
+struct Part {
+  double low = 0.0, high = 1.0;
+};
+
+/// What of a segment, m in the grid's frame, lies in the grid or less than a square beside it.
+Part part_inside(const OccupancyGrid& grid, const Pose2& from, const Pose2& to) {
+  Part inside;
+  const auto clip = [&](double begin, double end, int cells) {
+    const double low = -wide_side;
+    const double high = cells * grid.resolution + wide_side;
+    const double way = end - begin;
+    if (way == 0.0 && (begin < low || begin > high)) inside.high = -1.0;
+    if (way == 0.0) return;
+    inside.low = std::max(inside.low, ((way > 0.0 ? low : high) - begin) / way);
+    inside.high = std::min(inside.high, ((way > 0.0 ? high : low) - begin) / way);
+  };
+  clip(from.x, to.x, grid.width);
+  clip(from.y, to.y, grid.height);
+  return inside;
+}
+
 nlohmann::ordered_json json_of(const std::vector<MapChange>& changes, const Vector3& origin) {
   auto list = nlohmann::ordered_json::array();
   for (const MapChange& change : changes) {
@@ -89,8 +111,11 @@ void MapChanges::follow(const Pose2& from, const Pose2& to, Seen& wide, Seen& ce
   const Pose2 grid_from_map = inverse(grid.map_from_grid);
   const double length = std::hypot(to.x - from.x, to.y - from.y);
   const double step = grid.resolution / 2.0;
+  // What the grid does not have is no change: rays may go on for kilometres behind it.
+  const Part inside = part_inside(grid, grid_from_map * from, grid_from_map * to);
   std::optional<Square> last;
-  for (double along = 0.0; along < length - least_behind; along += step) {
+  const double end = std::min(length - least_behind, inside.high * length);
+  for (double along = step * std::floor(inside.low * length / step); along < end; along += step) {
     const double share = along / length;
     const Pose2 place{from.x + share * (to.x - from.x), from.y + share * (to.y - from.y), 0.0};
     const Square square = square_of(place, wide_side);

@@ -87,9 +87,12 @@ TripleSampler::TripleSampler(const Points& points, double local_radius)
   const auto [low_y, high_y] = std::minmax_element(points.y.begin(), points.y.end());
   min_x_ = *low_x;
   min_y_ = *low_y;
+  // Wider cells than the radius do no harm but time: so many in a row at most.
+  constexpr float most_cells = 4096.0F;
+  cell_ = std::max({radius_, (*high_x - min_x_) / most_cells, (*high_y - min_y_) / most_cells});
   // With a margin of one cell all around, so that every point has eight neighbouring cells.
-  columns_ = static_cast<std::size_t>((*high_x - min_x_) / radius_) + 3;
-  const std::size_t rows = static_cast<std::size_t>((*high_y - min_y_) / radius_) + 3;
+  columns_ = static_cast<std::size_t>((*high_x - min_x_) / cell_) + 3;
+  const std::size_t rows = static_cast<std::size_t>((*high_y - min_y_) / cell_) + 3;
 
   starts_.assign(columns_ * rows + 1, 0);
   for (std::size_t i = 0; i < points.size(); ++i) ++starts_[cell_of(points.x[i], points.y[i]) + 1];
@@ -100,8 +103,8 @@ TripleSampler::TripleSampler(const Points& points, double local_radius)
 }
 
 std::size_t TripleSampler::cell_of(float x, float y) const {
-  const std::size_t row = static_cast<std::size_t>((y - min_y_) / radius_) + 1;
-  return row * columns_ + static_cast<std::size_t>((x - min_x_) / radius_) + 1;
+  const std::size_t row = static_cast<std::size_t>((y - min_y_) / cell_) + 1;
+  return row * columns_ + static_cast<std::size_t>((x - min_x_) / cell_) + 1;
 }
 
 void TripleSampler::draw(std::uint64_t seed, TripleBatch& batch) const {

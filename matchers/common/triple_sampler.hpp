@@ -33,6 +33,7 @@ class TripleSampler {
   // Points sorted by square cells of side `local_radius`, so that the neighbours of a point are three runs of
   // `order_`.
   float radius_ = 0.0F;
+  float cell_ = 0.0F;  ///< Side of the cells, the radius or more.
   float min_x_ = 0.0F, min_y_ = 0.0F;
   std::size_t columns_ = 0;
   std::vector<std::uint32_t> order_;

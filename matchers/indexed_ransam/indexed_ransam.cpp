@@ -80,6 +80,7 @@ void describe(ParamVisitor& v, IndexedRansam::Params& p) {
   v.field("min_length", p.min_length,
           {.doc = "Shortest oriented point pair, or side of a triangle.",
            .unit = "m",
+           .max = 5.0,
            .above = 0.0,
            .audience = Audience::expert});
   v.field("relation", p.relation,

@@ -56,6 +56,7 @@ void describe(ParamVisitor& v, SurfelRansam::Params& p) {
                   "the map's resolution, and at least 0.1 m.",
            .unit = "m",
            .min = 0.01,
+           .max = 100.0,
            .audience = Audience::tuner});
   v.field("best", p.best,
           {.doc = "Number of poses that become hypotheses: those with the highest scores.",

@@ -122,6 +122,18 @@ std::size_t give_poses(std::vector<DriveCloud>& clouds, bool have_stamps, const 
   return clouds.size();
 }
 
+/// "1305031102" of "cloud_1305031102_175304000", the time in seconds and nanoseconds, whose last separator is
+/// there.
+std::optional<double> seconds_before(const std::string& name, std::size_t separator) {
+  constexpr std::size_t digits_of_seconds = 10;  // since 2001
+  if (separator == std::string::npos || separator < digits_of_seconds) return std::nullopt;
+  if (name[separator] != '_' && name[separator] != '-') return std::nullopt;
+  const std::size_t before = name.find_last_not_of("0123456789", separator - 1);
+  const std::size_t begin = before == std::string::npos ? 0 : before + 1;
+  return separator - begin == digits_of_seconds ? number_in(name.substr(begin, digits_of_seconds))
+                                                : std::nullopt;
+}
+
 }  // namespace
 
 std::optional<double> stamp_in_name(const fs::path& file) {
@@ -135,6 +147,8 @@ std::optional<double> stamp_in_name(const fs::path& file) {
   const auto number = number_in(digits);
   if (!number) return std::nullopt;
   constexpr double first_of_nanoseconds = 1e16, nanoseconds = 1e9;
+  if (const auto seconds = seconds_before(name, before); seconds && digits.size() == 9)
+    return *seconds + *number / nanoseconds;
   return *number >= first_of_nanoseconds ? *number / nanoseconds : *number;
 }
 

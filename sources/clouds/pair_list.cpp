@@ -41,7 +41,7 @@ class PairsReader {
 
   std::vector<CloudPair> read() {
     const std::string content = read_decompressed(file_);
-    std::string_view rest = content;
+    std::string_view rest = without_byte_order_mark(content);
     for (line_ = 1; !rest.empty(); ++line_) {
       const std::size_t end = rest.find('\n');
       const std::vector<std::string> values = values_of(rest.substr(0, end));
@@ -64,6 +64,10 @@ class PairsReader {
       if (!column(needed))
         fault(fmt::format("there is no column '{}'; the first line names the columns", needed));
     }
+    const auto is_there = [&](const char* name) { return column(name).has_value(); };
+    if (std::ranges::any_of(pose_columns, is_there) && !std::ranges::all_of(pose_columns, is_there))
+      fault(
+          fmt::format("a pose has the columns {}: give all of them, or none", fmt::join(pose_columns, ", ")));
     if (!faults_.empty()) throw ConfigError(std::move(faults_));
   }
 

@@ -34,7 +34,8 @@ std::optional<Sample> LateScans::disturb(Sample sample, Rng /*rng*/) {
 RepeatedScans::RepeatedScans(double samples, Rng /*rng*/) : samples_(whole(samples)) {}
 
 std::optional<Sample> RepeatedScans::disturb(Sample sample, Rng /*rng*/) {
-  if (left_ == 0) {
+  const bool is_new_segment = std::exchange(segment_, sample.segment) != sample.segment;
+  if (left_ == 0 || is_new_segment) {
     scan_ = std::move(sample.observation.scan);
     left_ = samples_;
   }
@@ -61,6 +62,7 @@ std::optional<Sample> turn_over(Sample sample, double /*amount*/, Rng& /*rng*/) 
   Scan& scan = sample.observation.scan;
   for (Points* points : {&scan.hits, &scan.free_ends}) {
     for (float& y : points->y) y = 2.0F * scan.origin.y - y;
+    for (float& z : points->z) z = 2.0F * scan.origin.z - z;
   }
   return sample;
 }
@@ -94,6 +96,7 @@ std::optional<Sample> StuckRanges::disturb(Sample sample, Rng /*rng*/) {
 }
 
 std::optional<Sample> Jitter::disturb(Sample sample, Rng rng) {
+  if (std::exchange(segment_, sample.segment) != sample.segment) last_.reset();
   Pose3& odom_from_robot = sample.observation.odom_from_robot;
   const Pose3 as_it_was = odom_from_robot;
   if (last_) {

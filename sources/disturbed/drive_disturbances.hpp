@@ -52,6 +52,7 @@ class RepeatedScans final : public Disturbance {
  private:
   std::size_t samples_, left_ = 0;
   Scan scan_;
+  int segment_ = 0;
 };
 
 /// The sensor looks this much, deg, to the left of where it is thought to look.
@@ -88,7 +89,8 @@ class Jitter final : public Disturbance {
 
  private:
   double most_;
-  std::optional<Pose3> last_;  ///< odom_from_robot as it was.
+  std::optional<Pose3> last_;  ///< odom_from_robot as it was, in this segment.
+  int segment_ = 0;
 };
 
 /// What is measured of the robot's motion since the sample before.

@@ -12,7 +12,10 @@ void describe(ParamVisitor& v, LaserParams& p) {
   v.field("step_deg", p.step_deg,
           {.doc = "Angle from ray to ray.", .unit = "deg", .min = 0.01, .max = 360.0});
   v.field("max_range", p.max_range,
-          {.doc = "Range of the laser: what is farther away is not seen.", .unit = "m", .above = 0.0});
+          {.doc = "Range of the laser: what is farther away is not seen.",
+           .unit = "m",
+           .max = 1000.0,
+           .above = 0.0});
   v.field("noise", p.noise, {.doc = "Standard deviation of a reading.", .unit = "m", .min = 0.0});
   v.require(p.step_deg <= p.fov_deg, "step_deg", "must not be above fov_deg");
 }

@@ -157,12 +157,17 @@ TEST_F(RegisterCommand, RefusesWhatItCannotDo) {
   EXPECT_EQ(run("register --pairs " + file("p.csv") + " " + file("source.pcd")).exit_code, 2);
   std::ofstream(file("p.csv")) << "a,b\n1,2\n";
   EXPECT_THAT(run("register --pairs " + file("p.csv")).err, HasSubstr("there is no column 'source'"));
+  std::ofstream(file("p.csv")) << "\xEF\xBB\xBFsource,target,x,ty,tz,qx,qy,qz,qw\n";
+  EXPECT_THAT(
+      refusal(run("register --pairs " + file("p.csv"))),
+      HasSubstr("p.csv:1: error: a pose has the columns tx, ty, tz, qx, qy, qz, qw: give all of them"));
   std::ofstream(file("bad.pcd")) << "VERSION 0.7\nFIELDS x y z\n";
   EXPECT_EQ(run("register " + file("bad.pcd") + " " + file("source.pcd")).exit_code, 2);
   const std::string both = "register " + file("source.pcd") + " " + file("source.pcd");
   EXPECT_THAT(refusal(run(both + " -o " + file("out.ply"))),
               HasSubstr("out.ply: error: the name must end in .pcd"));
   EXPECT_EQ(run(both + " --seed -1").exit_code, 2);
+  EXPECT_EQ(run(both + " --voxel-size 4e38").exit_code, 2);
 }
 
 TEST_F(RegisterCommand, IsRightOnRealAndSimulatedPairs) {

@@ -29,9 +29,10 @@ class UnknownPlaceMonitor {
                       double contact_epsilon);
 
   /// Omega' of eq. 10: the mean, over the last `window` scans with hits, of the share of a scan's hits in
-  /// contact with the map under the best hypothesis. `hits` are those of the latest scan (m, robot frame),
-  /// which `local` has taken in. A step without hypotheses is judged by the best of the last step that had
-  /// some. None before the first hypothesis in the local map's frame.
+  /// contact with the map under the best hypothesis, of which one in each voxel as wide as contact counts.
+  /// `hits` are those of the latest scan (m, robot frame), which `local` has taken in. A step without
+  /// hypotheses is judged by the best of the last step that had some. None before the first hypothesis in the
+  /// local map's frame.
   [[nodiscard]] std::optional<double> update(const LocalMap& local, const Points& hits,
                                              const std::vector<Hypothesis>& hypotheses);
 
@@ -50,6 +51,7 @@ class UnknownPlaceMonitor {
  private:
   UnknownPlaceParams params_;
   std::shared_ptr<const GlobalMap> map_;
+  double epsilon_;  ///< m
   std::shared_ptr<const ContactIndex> contact_;
   std::deque<Points> scans_;  ///< Hits of the last `window` scans, in the local frame.
   std::optional<Pose3> best_;

@@ -1,14 +1,30 @@
 #include "glocal/unknown_place.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "glocal/clearance_grid.hpp"
+#include "glocal/voxel_numbers.hpp"
 
 namespace glocal {
 namespace {
 
 /// The last part of a beam before its hit, where a wall of the map may well be, m.
 constexpr double blur = 0.3;
+
+/// One hit of each voxel: what is near, as a person beside the robot, has most of a scan's hits, and is not
+/// most of what it sees.
+Points thinned(const Points& hits, double side) {
+  VoxelNumbers<std::int64_t> voxels(hits.size());
+  const auto index = [&](float along) { return static_cast<std::int64_t>(std::floor(along / side)); };
+  Points chosen;
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    const Point& hit = hits[i];
+    if (voxels.find_or_add({index(hit.x), index(hit.y), index(hit.z)}) == chosen.size())
+      chosen.push_back(hit);
+  }
+  return chosen;
+}
 
 }  // namespace
 
@@ -28,13 +44,14 @@ UnknownPlaceMonitor::UnknownPlaceMonitor(const UnknownPlaceParams& params,
                                          std::shared_ptr<const GlobalMap> map, double contact_epsilon)
     : params_(params),
       map_(std::move(map)),
-      contact_(contact_index(*map_, "bitset", params.contact_epsilon.value_or(contact_epsilon))) {}
+      epsilon_(params.contact_epsilon.value_or(contact_epsilon)),
+      contact_(contact_index(*map_, "bitset", epsilon_)) {}
 
 std::optional<double> UnknownPlaceMonitor::update(const LocalMap& local, const Points& hits,
                                                   const std::vector<Hypothesis>& hypotheses) {
   if (local.epoch != epoch_) reset();
   epoch_ = local.epoch;
-  if (!hits.empty()) scans_.push_back(moved(hits, local.local_from_robot));
+  if (!hits.empty()) scans_.push_back(moved(thinned(hits, epsilon_), local.local_from_robot));
   if (scans_.size() > static_cast<std::size_t>(params_.window)) scans_.pop_front();
   if (!hypotheses.empty()) best_ = hypotheses.front().map_from_local;
   if (!best_ || scans_.empty()) return std::nullopt;

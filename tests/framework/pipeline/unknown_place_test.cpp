@@ -20,8 +20,14 @@ std::shared_ptr<const GlobalMap> four_points() {
 
 /// On this map under `pose`: (0, 0), (0, 1), (0, 2) and (0, 3); nothing else is.
 const Pose2 pose{3.0, 0.0, std::numbers::pi / 2.0};
-constexpr Point on{0.0F, 2.0F, 0.0F};
-constexpr Point off{1.0F, 0.0F, 0.0F};
+
+/// So many that are on the map, up to 4, and others that are off it.
+std::vector<Point> hits(int on, int off) {
+  std::vector<Point> all;
+  for (int i = 0; i < on; ++i) all.push_back({0.0F, static_cast<float>(i), 0.0F});
+  for (int i = 0; i < off; ++i) all.push_back({static_cast<float>(1 + i), 0.0F, 0.0F});
+  return all;
+}
 
 Points points(const std::vector<Point>& of) {
   Points all;
@@ -30,34 +36,34 @@ Points points(const std::vector<Point>& of) {
 }
 
 /// Nothing has moved since the local map was begun.
-std::optional<double> update(UnknownPlaceMonitor& monitor, const std::vector<Point>& hits,
+std::optional<double> update(UnknownPlaceMonitor& monitor, const std::vector<Point>& scan,
                              const std::vector<Hypothesis>& hypotheses) {
-  return monitor.update({}, points(hits), hypotheses);
+  return monitor.update({}, points(scan), hypotheses);
 }
 
 /// After these scans.
 double omega_place(int window, const std::vector<std::vector<Point>>& scans) {
   UnknownPlaceMonitor monitor({.window = window, .contact_epsilon = 0.1}, four_points(), 1.0);
   std::optional<double> result;
-  for (const std::vector<Point>& hits : scans) result = update(monitor, hits, {{pose, {}, 0.9}});
+  for (const std::vector<Point>& scan : scans) result = update(monitor, scan, {{pose, {}, 0.9}});
   return result.value_or(-1.0);
 }
 
 TEST(UnknownPlace, IsTheMeanOfTheSharesOfTheScans) {
   // 1 of 4, 2 of 2, 0 of 1: every scan counts the same, however many hits it has.
-  EXPECT_DOUBLE_EQ(omega_place(10, {{on, off, off, off}, {on, on}, {off}}), (0.25 + 1.0 + 0.0) / 3.0);
+  EXPECT_DOUBLE_EQ(omega_place(10, {hits(1, 3), hits(2, 0), hits(0, 1)}), (0.25 + 1.0 + 0.0) / 3.0);
 }
 
 TEST(UnknownPlace, LooksBackAsFarAsTheWindow) {
-  const std::vector<std::vector<Point>> scans = {{on, off, off, off}, {on, on}, {off}};
+  const std::vector<std::vector<Point>> scans = {hits(1, 3), hits(2, 0), hits(0, 1)};
   EXPECT_DOUBLE_EQ(omega_place(3, scans), 1.25 / 3.0);
   EXPECT_DOUBLE_EQ(omega_place(2, scans), 0.5);
   EXPECT_DOUBLE_EQ(omega_place(1, scans), 0.0);
 }
 
 TEST(UnknownPlace, ScansWithoutHitsDoNotCount) {
-  EXPECT_DOUBLE_EQ(omega_place(2, {{off}, {on, off}, {}, {on}, {}, {}}), 0.75);
-  EXPECT_DOUBLE_EQ(omega_place(10, {{}, {on}, {}}), 1.0);
+  EXPECT_DOUBLE_EQ(omega_place(2, {hits(0, 1), hits(1, 1), {}, hits(1, 0), {}, {}}), 0.75);
+  EXPECT_DOUBLE_EQ(omega_place(10, {{}, hits(1, 0), {}}), 1.0);
   EXPECT_DOUBLE_EQ(omega_place(10, {{}, {}}), -1.0);
 }
 
@@ -65,12 +71,20 @@ TEST(UnknownPlace, WhatTheLocalMapHadBeforeCountsInEachScan) {
   // A robot that stands still adds nothing to its local map but who walks by.
   UnknownPlaceMonitor monitor({}, four_points(), 0.1);
   LocalMap local;
-  local.points = points({on, on, on});
+  local.points = points(hits(3, 0));
   local.ends = {3};
-  EXPECT_EQ(monitor.update(local, points({on, on, on}), {{pose, {}, 0.9}}), 1.0);
-  local.points.push_back(off);
+  EXPECT_EQ(monitor.update(local, points(hits(3, 0)), {{pose, {}, 0.9}}), 1.0);
+  local.points.push_back({1.0F, 0.0F, 0.0F});
   local.ends = {3, 4};
-  EXPECT_DOUBLE_EQ(monitor.update(local, points({on, on, on, off}), {{pose, {}, 0.9}}).value(), 0.875);
+  EXPECT_DOUBLE_EQ(monitor.update(local, points(hits(3, 1)), {{pose, {}, 0.9}}).value(), 0.875);
+}
+
+TEST(UnknownPlace, WhatIsNearIsNotMostOfWhatIsSeen) {
+  // A hundred hits on the 0.4 m of somebody beside the robot are five of those that are 0.1 m apart.
+  UnknownPlaceMonitor monitor({}, four_points(), 0.1);
+  std::vector<Point> scan = hits(4, 0);
+  for (int i = 0; i <= 100; ++i) scan.push_back({0.52F, 0.05F + 0.004F * static_cast<float>(i), 0.0F});
+  EXPECT_DOUBLE_EQ(update(monitor, scan, {{pose, {}, 0.9}}).value(), 4.0 / 9.0);
 }
 
 TEST(UnknownPlace, EachScanStaysWhereTheRobotWas) {
@@ -85,12 +99,12 @@ TEST(UnknownPlace, EachScanStaysWhereTheRobotWas) {
 }
 
 TEST(UnknownPlace, IsJudgedByTheBestHypothesis) {
-  const std::vector<Point> hits = {{0.0F, 0.0F, 0.0F}, {0.0F, 3.0F, 0.0F}};
+  const std::vector<Point> scan = {{0.0F, 0.0F, 0.0F}, {0.0F, 3.0F, 0.0F}};
   // Turned by a quarter both points are met, unturned one of them is.
   UnknownPlaceMonitor turned({}, four_points(), 0.1);
-  EXPECT_EQ(update(turned, hits, {{pose, {}, 0.9}, {{}, {}, 0.9}}), 1.0);
+  EXPECT_EQ(update(turned, scan, {{pose, {}, 0.9}, {{}, {}, 0.9}}), 1.0);
   UnknownPlaceMonitor unturned({}, four_points(), 0.1);
-  EXPECT_EQ(update(unturned, hits, {{{}, {}, 0.9}, {pose, {}, 0.9}}), 0.5);
+  EXPECT_EQ(update(unturned, scan, {{{}, {}, 0.9}, {pose, {}, 0.9}}), 0.5);
   // The best of now judges the scans before, too.
   EXPECT_EQ(update(unturned, {}, {{pose, {}, 0.9}}), 1.0);
 }
@@ -99,33 +113,33 @@ TEST(UnknownPlace, PosesInSpaceMoveThePointsInSpace) {
   UnknownPlaceMonitor monitor({}, four_points(), 0.1);
   // The robot lies on its left side, 2 m above: what is 2 m to its right is below it.
   const Pose3 on_its_side({1.0, 0.0, 2.0}, exponential({-std::numbers::pi / 2.0, 0.0, 0.0}));
-  const std::vector<Point> hits = {{0.0F, 2.0F, 0.0F}, {1.0F, 2.0F, 0.0F}, {0.0F, 0.0F, 2.0F}};
-  EXPECT_DOUBLE_EQ(update(monitor, hits, {{on_its_side, {}, 0.9}}).value(), 2.0 / 3.0);
+  const std::vector<Point> scan = {{0.0F, 2.0F, 0.0F}, {1.0F, 2.0F, 0.0F}, {0.0F, 0.0F, 2.0F}};
+  EXPECT_DOUBLE_EQ(update(monitor, scan, {{on_its_side, {}, 0.9}}).value(), 2.0 / 3.0);
   EXPECT_EQ(update(monitor, {}, {{Pose2{0.0, 0.0, 0.0}, {}, 0.9}}), 0.0);
 }
 
 TEST(UnknownPlace, AStepWithoutHypothesesIsJudgedByTheLastBest) {
   UnknownPlaceMonitor monitor({}, four_points(), 0.1);
-  EXPECT_EQ(update(monitor, {on}, {}), std::nullopt);
-  EXPECT_EQ(update(monitor, {on}, {{pose, {}, 0.9}}), 1.0);
-  EXPECT_EQ(update(monitor, {off, off}, {}), 2.0 / 3.0);
-  EXPECT_EQ(update(monitor, {off}, {}), 0.5);
+  EXPECT_EQ(update(monitor, hits(1, 0), {}), std::nullopt);
+  EXPECT_EQ(update(monitor, hits(1, 0), {{pose, {}, 0.9}}), 1.0);
+  EXPECT_EQ(update(monitor, hits(0, 2), {}), 2.0 / 3.0);
+  EXPECT_EQ(update(monitor, hits(0, 1), {}), 0.5);
 }
 
 TEST(UnknownPlace, WhatIsInTheFrameOfAnEarlierLocalMapMeansNothing) {
   UnknownPlaceMonitor monitor({}, four_points(), 0.1);
   LocalMap local;
-  EXPECT_EQ(monitor.update(local, points({on}), {{pose, {}, 0.9}}), 1.0);
+  EXPECT_EQ(monitor.update(local, points(hits(1, 0)), {{pose, {}, 0.9}}), 1.0);
   local.epoch = 1;
-  EXPECT_EQ(monitor.update(local, points({off}), {}), std::nullopt);
+  EXPECT_EQ(monitor.update(local, points(hits(0, 1)), {}), std::nullopt);
   EXPECT_EQ(monitor.update(local, {}, {{pose, {}, 0.9}}), 0.0) << "the scan before is forgotten, too";
 }
 
 TEST(UnknownPlace, ForgetsAllWhenReset) {
   UnknownPlaceMonitor monitor({}, four_points(), 0.1);
-  EXPECT_EQ(update(monitor, {on}, {{pose, {}, 0.9}}), 1.0);
+  EXPECT_EQ(update(monitor, hits(1, 0), {{pose, {}, 0.9}}), 1.0);
   monitor.reset();
-  EXPECT_EQ(update(monitor, {off}, {}), std::nullopt);
+  EXPECT_EQ(update(monitor, hits(0, 1), {}), std::nullopt);
   EXPECT_EQ(update(monitor, {}, {{pose, {}, 0.9}}), 0.0);
 }
 

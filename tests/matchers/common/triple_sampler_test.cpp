@@ -37,6 +37,13 @@ TEST(TripleSampler, ADrawDependsOnItsSeedAndNumberOnly) {
   }
 }
 
+TEST(TripleSampler, CellsDoNotGetSmallerAndSmallerWithTheRadius) {
+  // As many cells as the radius fits into would take more memory than there is.
+  const Points points = test::small_world_points();
+  for (const Triple& triple : draws(TripleSampler(points, 1e-9), 5, 0, 100))
+    EXPECT_EQ(triple, (Triple{triple[0], triple[0], triple[0]}));
+}
+
 TEST(TripleSampler, UniformDrawsAreTheSameForEveryInstructionSet) {
   const Points points = test::small_world_points();
   const TripleSampler sampler(points, 0.0);

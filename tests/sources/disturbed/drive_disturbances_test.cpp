@@ -67,6 +67,14 @@ TEST(DriveDisturbances, ADriverThatHangsRepeatsItself) {
     EXPECT_EQ(left[i].observation.scan.hits.x[0], static_cast<float>(i - i % 3));
 }
 
+TEST(DriveDisturbances, NothingGoesFromOneSegmentToTheNext) {
+  std::vector<Sample> way = drive(6);
+  for (std::size_t i = 4; i < 6; ++i) way[i].segment = 1;
+  EXPECT_EQ(disturbed(RepeatedScans(3.0, Rng(1)), way)[4].observation.scan.hits.x[0], 4.0F);
+  EXPECT_EQ(disturbed(Jitter(1.0, Rng(1)), way)[4].observation.odom_from_robot,
+            way[4].observation.odom_from_robot);
+}
+
 TEST(DriveDisturbances, AMountThatLooksToTheLeftPutsThingsToTheRight) {
   const auto left = disturbed(MountAngle(90.0, Rng(1)), drive(3));
   const Points& hits = left[2].observation.scan.hits;
@@ -114,6 +122,11 @@ TEST(DriveDisturbances, UpsideDownLeftIsRight) {
   const auto left = disturbed(UpsideDown(1.0, Rng(1)), drive(3));
   EXPECT_EQ(left[2].observation.scan.hits[0], (Point{2.0F, 0.0F, 0.0F}));
   EXPECT_EQ(left[2].observation.scan.hits[1], (Point{0.0F, -2.0F, 0.0F}));
+  std::vector<Sample> in_space = drive(1);
+  in_space[0].observation.scan.origin = {0.1F, 0.0F, 0.5F};
+  in_space[0].observation.scan.hits.z[1] = 0.75F;
+  const auto turned = disturbed(UpsideDown(1.0, Rng(1)), in_space);
+  EXPECT_EQ(turned[0].observation.scan.hits[1].z, 0.25F) << "above is below, as nothing mirrors a sensor";
 }
 
 TEST(DriveDisturbances, WaysAreStretchedAndTurnsAreNot) {
