@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "glocal/observation.hpp"
 #include "glocal/rng.hpp"
@@ -18,6 +19,16 @@ class Disturbance {
   /// What becomes of the next sample; none if it is lost. `rng` is for this sample alone. Reference poses and
   /// segments stay.
   [[nodiscard]] virtual std::optional<Sample> disturb(Sample sample, Rng rng) = 0;
+
+ protected:
+  /// Asked once of each sample: whether the drive was interrupted before it, so that nothing goes on from
+  /// there.
+  [[nodiscard]] bool begins_segment(const Sample& sample) {
+    return std::exchange(segment_, sample.segment) != sample.segment;
+  }
+
+ private:
+  int segment_ = 0;
 };
 
 /// A kind of these, and how to make one; `rng` is for the whole drive.

@@ -22,8 +22,7 @@ std::optional<Sample> drop(Sample sample, double share, Rng& rng) {
 LateScans::LateScans(double samples, Rng /*rng*/) : samples_(whole(samples)) {}
 
 std::optional<Sample> LateScans::disturb(Sample sample, Rng /*rng*/) {
-  if (sample.segment != segment_) on_the_way_.clear();
-  segment_ = sample.segment;
+  if (begins_segment(sample)) on_the_way_.clear();
   on_the_way_.push_back(std::move(sample.observation.scan));
   if (on_the_way_.size() <= samples_) return std::nullopt;
   sample.observation.scan = std::move(on_the_way_.front());
@@ -34,8 +33,8 @@ std::optional<Sample> LateScans::disturb(Sample sample, Rng /*rng*/) {
 RepeatedScans::RepeatedScans(double samples, Rng /*rng*/) : samples_(whole(samples)) {}
 
 std::optional<Sample> RepeatedScans::disturb(Sample sample, Rng /*rng*/) {
-  const bool is_new_segment = std::exchange(segment_, sample.segment) != sample.segment;
-  if (left_ == 0 || is_new_segment) {
+  if (begins_segment(sample)) left_ = 0;
+  if (left_ == 0) {
     scan_ = std::move(sample.observation.scan);
     left_ = samples_;
   }
@@ -96,7 +95,7 @@ std::optional<Sample> StuckRanges::disturb(Sample sample, Rng /*rng*/) {
 }
 
 std::optional<Sample> Jitter::disturb(Sample sample, Rng rng) {
-  if (std::exchange(segment_, sample.segment) != sample.segment) last_.reset();
+  if (begins_segment(sample)) last_.reset();
   Pose3& odom_from_robot = sample.observation.odom_from_robot;
   const Pose3 as_it_was = odom_from_robot;
   if (last_) {

@@ -40,7 +40,6 @@ class LateScans final : public Disturbance {
  private:
   std::size_t samples_;
   std::deque<Scan> on_the_way_;
-  int segment_ = 0;
 };
 
 /// The driver hangs: of so many samples, all have the scan of the first.
@@ -52,7 +51,6 @@ class RepeatedScans final : public Disturbance {
  private:
   std::size_t samples_, left_ = 0;
   Scan scan_;
-  int segment_ = 0;
 };
 
 /// The sensor looks this much, deg, to the left of where it is thought to look.
@@ -90,7 +88,6 @@ class Jitter final : public Disturbance {
  private:
   double most_;
   std::optional<Pose3> last_;  ///< odom_from_robot as it was, in this segment.
-  int segment_ = 0;
 };
 
 /// What is measured of the robot's motion since the sample before.

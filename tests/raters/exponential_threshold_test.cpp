@@ -38,15 +38,7 @@ TEST(ExponentialThreshold, EmptyStepsLetItFall) {
 }
 
 TEST(ExponentialThreshold, ScoresThatStayTheSameReachIt) {
-  for (int n = 1; n <= 60; ++n) {
-    for (int k = 1; k <= n; ++k) {
-      const double score = static_cast<double>(k) / n;
-      ExponentialThreshold threshold({.weight = 0.7});
-      for (int step = 0; step < 60; ++step) threshold.update(with_scores({score, score, score}));
-      ASSERT_LE(threshold.omega_max(), score) << k << " of " << n;
-      ASSERT_NEAR(threshold.omega_max(), score, 1e-12);
-    }
-  }
+  test::expect_reached_by_equal_scores(ExponentialThreshold({.weight = 0.7}));
 }
 
 }  // namespace

@@ -49,6 +49,15 @@ class RunExperiment : public testing::Test {
     return run_experiment(folder_.path() / "room.yaml", {}, catalog_, options, observer);
   }
 
+  /// Of which a trial is finished at least.
+  void run_a_part(const RunOptions& options) const {
+    bool is_begun = false;
+    RunObserver observer;
+    observer.trial = [&](const TrialEnd&) { is_begun = true; };
+    observer.stop = [&] { return is_begun; };
+    EXPECT_FALSE(run(options, observer).complete);
+  }
+
   [[nodiscard]] RunOptions to(const std::string& name) const { return {.out = folder_.path() / name}; }
 
   TemporaryFolder folder_;
@@ -113,11 +122,7 @@ TEST_F(RunExperiment, IsStoppedAndGoneOnWith) {
 }
 
 TEST_F(RunExperiment, TellsThatItsTrialsRanSideBySideAtTimes) {
-  bool is_begun = false;
-  RunObserver observer;
-  observer.trial = [&](const TrialEnd&) { is_begun = true; };
-  observer.stop = [&] { return is_begun; };
-  EXPECT_FALSE(run(to("out"), observer).complete);
+  run_a_part(to("out"));
   RunOptions options = to("out");
   options.jobs = 2;
   EXPECT_TRUE(run(options).complete);
@@ -125,11 +130,7 @@ TEST_F(RunExperiment, TellsThatItsTrialsRanSideBySideAtTimes) {
 }
 
 TEST_F(RunExperiment, AnInterruptedOneOfOtherValuesIsNotReplaced) {
-  bool is_begun = false;
-  RunObserver observer;
-  observer.trial = [&](const TrialEnd&) { is_begun = true; };
-  observer.stop = [&] { return is_begun; };
-  EXPECT_FALSE(run(to("out"), observer).complete);
+  run_a_part(to("out"));
   write_experiment("seed: 77\n");
   EXPECT_THAT(error_of([&] { return run(to("out")); }),
               HasSubstr("output: the folder has results of another run: it is of other values"));
