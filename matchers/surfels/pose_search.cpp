@@ -108,11 +108,12 @@ void look_closer(std::vector<Proposal>& proposals, SearchScene& scene, const Pos
   scene.effort.points_tested += proposals.size() * (third_look + scene.target_sample.size());
 }
 
-bool is_same(const RigidMotion& a, const RigidMotion& b, float voxel_size) {
+/// Whether two motions turn the source alike and bring its middle to nearly the same place.
+bool is_same(const RigidMotion& a, const RigidMotion& b, const SearchScene& scene) {
   constexpr float voxels = 3.0F;
   constexpr float least_cosine = 0.97F;  // 14 degrees
-  const Point d = a.translation - b.translation;
-  const float reach = voxels * voxel_size;
+  const Point d = a(scene.source_sample.middle) - b(scene.source_sample.middle);
+  const float reach = voxels * scene.target.contact.reach();
   return dot(d, d) < reach * reach && cosine_between(a, b) > least_cosine;
 }
 
@@ -191,9 +192,9 @@ void polish(std::vector<FoundPose>& found, SearchScene& scene, const PoseSearchP
 }
 
 /// Adds a pose, or counts it for the one it is the same as, whose place it takes if it is better.
-void add(std::vector<FoundPose>& found, const FoundPose& pose, std::size_t round, float voxel_size) {
+void add(std::vector<FoundPose>& found, const FoundPose& pose, std::size_t round, const SearchScene& scene) {
   const auto same = std::find_if(found.begin(), found.end(), [&](const FoundPose& other) {
-    return is_same(other.target_from_source, pose.target_from_source, voxel_size);
+    return is_same(other.target_from_source, pose.target_from_source, scene);
   });
   if (same == found.end()) {
     found.push_back(pose);
@@ -266,7 +267,7 @@ void PoseSearch::search_round() {
   std::vector<RigidMotion> distinct;
   for (const Proposal& proposal : proposed) {
     const auto is_same_here = [&](const RigidMotion& other) {
-      return is_same(other, proposal.motion, scene_.target.contact.reach());
+      return is_same(other, proposal.motion, scene_);
     };
     if (distinct.size() < params_.refined && std::none_of(distinct.begin(), distinct.end(), is_same_here))
       distinct.push_back(proposal.motion);
@@ -279,8 +280,7 @@ void PoseSearch::search_round() {
 void PoseSearch::settle(const RigidMotion& motion) {
   constexpr int steps = 6;
   const FoundPose pose = settled(motion, scene_.source_sample, steps, scene_, params_);
-  if (is_allowed(pose.target_from_source, params_.gate))
-    add(found_, pose, round_, scene_.target.contact.reach());
+  if (is_allowed(pose.target_from_source, params_.gate)) add(found_, pose, round_, scene_);
 }
 
 PoseSearchResult PoseSearch::result() const {

@@ -25,6 +25,7 @@ SurfelSample sample_of(const Surfels& surfels, std::size_t n, Rng& rng) {
     sample.points.push_back(surfels.points[i]);
     sample.normals.push_back(surfels.normals[i]);
   }
+  if (!drawn.empty()) sample.middle = as_point(centroid(sample.points));
   return sample;
 }
 

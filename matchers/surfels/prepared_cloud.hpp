@@ -16,6 +16,7 @@ namespace glocal::surfels {
 struct SurfelSample {
   Points points;
   Points normals;
+  Point middle = {};  ///< The points' mean.
 
   [[nodiscard]] std::size_t size() const { return points.size(); }
 };

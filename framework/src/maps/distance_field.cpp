@@ -227,10 +227,16 @@ NormalEquations normal_equations(const DistanceField& field, const Points& point
 Pose2 refined_pose(const DistanceField& field, const Points& points, const Pose2& map_from_points,
                    const PoseRefinement& refinement) {
   constexpr double settled = 1e-3;  // m, rad; a hundredth of what counts as contact
-  Pose2 pose = map_from_points;
+  if (points.empty()) return map_from_points;
+  // About the middle of the points, so that a turn moves none of them far: their origin may be anywhere.
+  const Vector3 middle = centroid(points);
+  const Pose2 points_from_middle{middle.x(), middle.y(), 0.0};
+  const Pose2 middle_from_points = inverse(points_from_middle);
+  Pose2 pose = map_from_points * points_from_middle;
   FieldValues values;
   for (int iteration = 0; iteration < refinement.iterations; ++iteration) {
-    NormalEquations e = normal_equations(field, points, pose, pose, refinement.kernel, values);
+    NormalEquations e =
+        normal_equations(field, points, pose * middle_from_points, pose, refinement.kernel, values);
     constexpr float damping = 1e-3F;
     e.h.diagonal() *= 1.0F + damping;
     const Eigen::LDLT<Eigen::Matrix3f> solver(e.h);
@@ -239,7 +245,7 @@ Pose2 refined_pose(const DistanceField& field, const Points& points, const Pose2
     pose = {pose.x + step.x(), pose.y + step.y(), wrap_angle(pose.theta + step.z())};
     if (std::abs(step.x()) < settled && std::abs(step.y()) < settled && std::abs(step.z()) < settled) break;
   }
-  return pose;
+  return pose * middle_from_points;
 }
 
 PoseCovariance pose_covariance(const DistanceField& field, const Points& points, const Pose2& map_from_points,

@@ -123,6 +123,20 @@ TEST(RefinedPose, ComesBackFromAShiftAndATurn) {
   }
 }
 
+TEST(RefinedPose, TurnsPointsFarFromTheirOrigin) {
+  const Points world = test::small_world_points();
+  const DistanceField field(world, 0.05, 0.5);
+  const Pose2 truth{5.5, 2.5, 0.7};
+  const Pose2 origin_from_robot{600.0, -300.0, 1.1};
+  const Points seen = moved(test::seen_from(world, truth, 4.0), origin_from_robot);
+  for (const double off : {-2.0, 2.0}) {
+    const Pose2 start = truth * Pose2{0.0, 0.0, radians(off)} * inverse(origin_from_robot);
+    const Pose2 pose = refined_pose(field, seen, start, {.iterations = 30}) * origin_from_robot;
+    EXPECT_LT(distance(pose, truth), 0.02) << off;
+    EXPECT_LT(rotation_between(pose, truth), radians(0.2)) << off;
+  }
+}
+
 TEST(RefinedPose, StaysWherePointsSayNothing) {
   const DistanceField field(test::small_world_points(), 0.05, 0.5);
   Points seen;

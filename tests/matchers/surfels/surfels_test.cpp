@@ -112,14 +112,21 @@ TEST(SurfelPairs, RelationsStayWhenTheCloudIsMovedAndTheMotionIsFound) {
 TEST(PointToPlane, RefinesAPoseThatIsALittleOff) {
   const PreparedCloud target(scan_of(hall(), place), voxel, Point{});
   const Pose3 other({5.4, 4.2, 1.3}, exponential({0.2, -0.1, 0.9}));
-  const PreparedCloud source(scan_of(hall(), other), voxel, Point{});
   const Pose3 truth = inverse(place) * other;
   const Pose3 guess = truth * Pose3({0.08, -0.06, 0.05}, exponential({0.02, -0.03, 0.03}));
-  Rng rng(1);
-  const SurfelSample sample = sample_of(source.surfels, 500, rng);
-  const Pose3 found = refined(RigidMotion(guess), sample, sample.size(), target.contact, 15, false).pose();
-  EXPECT_LT(distance(found, truth), 0.02);
-  EXPECT_LT(degrees(rotation_between(found, truth)), 0.3);
+  // Wherever the origin of the source is.
+  for (const Pose3& origin_from_scan :
+       {Pose3(), Pose3({500.0, -300.0, 20.0}, exponential({0.0, 0.1, 2.0}))}) {
+    const PreparedCloud source(moved(scan_of(hall(), other), origin_from_scan), voxel,
+                               as_point(origin_from_scan.translation()));
+    Rng rng(1);
+    const SurfelSample sample = sample_of(source.surfels, 500, rng);
+    const RigidMotion start(guess * inverse(origin_from_scan));
+    const Pose3 found =
+        refined(start, sample, sample.size(), target.contact, 15, false).pose() * origin_from_scan;
+    EXPECT_LT(distance(found, truth), 0.02) << origin_from_scan.x;
+    EXPECT_LT(degrees(rotation_between(found, truth)), 0.3) << origin_from_scan.x;
+  }
 }
 
 }  // namespace
