@@ -107,8 +107,9 @@ int starts_of(const SiteOptions& options) {
   return std::clamp(static_cast<int>(length_of(options) / metres_a_start), 1, most_starts);
 }
 
-std::string experiment_of(const SiteOptions& options, std::uint64_t seed, const std::string& log,
+std::string experiment_of(const SiteOptions& options, std::uint64_t seed, const Recording& drive,
                           const Catalog& catalog) {
+  constexpr std::size_t steps = 41;
   const carmen::LogParams limits = simulation::scan_limits(sites::office_drive().laser);
   return fmt::format(
       "# A simulated {} of {:g} m x {:g} m, seed {}. Written by glocal simulate.\n"
@@ -119,11 +120,11 @@ std::string experiment_of(const SiteOptions& options, std::uint64_t seed, const 
       "  ros_map: {{path: map.yaml}}\n"
       "observations:\n"
       "  carmen_log: {{path: {}, min_range: {}, max_range: {}, free_range: {}}}\n"
-      "trials: {{every_m: {}, max_steps: 41, min_steps: 41}}\n"
+      "trials: {{every_m: {}, max_steps: {}, min_steps: {}}}\n"
       "{}",
-      options.site, options.side, options.side, seed, options.site, options.side, seed, seed, log,
-      limits.min_range, limits.max_range, limits.free_range, length_of(options) / starts_of(options),
-      localizer_yaml(default_method(false), {}, catalog));
+      options.site, options.side, options.side, seed, options.site, options.side, seed, seed, drive.file_name,
+      limits.min_range, limits.max_range, limits.free_range, length_of(options) / starts_of(options), steps,
+      std::min(steps, drive.observations), localizer_yaml(default_method(false), {}, catalog));
 }
 
 /// Throws ConfigError where there is no side, and for a drive of too many observations.
@@ -135,7 +136,7 @@ SimulatedFiles simulated_site(const SiteOptions& options, std::uint64_t seed, co
                        std::move(grid),
                        {},
                        1};
-  files.experiment = experiment_of(options, seed, files.drive.file_name, catalog);
+  files.experiment = experiment_of(options, seed, files.drive, catalog);
   return files;
 }
 

@@ -24,16 +24,20 @@ void describe(ParamVisitor& v, OdometryNoise& p) {
   v.field("alpha1", p.alpha1,
           {.doc = "Noise of a rotation: variance for each squared radian turned (Probabilistic Robotics, "
                   "Table 5.6, as the other alphas).",
-           .min = 0.0});
+           .min = 0.0,
+           .max = 1000.0});
   v.field("alpha2", p.alpha2,
           {.doc = "Noise of a rotation: variance for each squared metre driven.",
            .unit = "rad^2/m^2",
-           .min = 0.0});
+           .min = 0.0,
+           .max = 1000.0});
   v.field("alpha3", p.alpha3,
-          {.doc = "Noise of the way: variance for each squared metre driven.", .min = 0.0});
-  v.field(
-      "alpha4", p.alpha4,
-      {.doc = "Noise of the way: variance for each squared radian turned.", .unit = "m^2/rad^2", .min = 0.0});
+          {.doc = "Noise of the way: variance for each squared metre driven.", .min = 0.0, .max = 1000.0});
+  v.field("alpha4", p.alpha4,
+          {.doc = "Noise of the way: variance for each squared radian turned.",
+           .unit = "m^2/rad^2",
+           .min = 0.0,
+           .max = 1000.0});
 }
 
 OdometryMotion::OdometryMotion(const Pose2& old_from_new, const OdometryNoise& noise) {

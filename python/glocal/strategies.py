@@ -305,7 +305,12 @@ def _field_of(field: dataclasses.Field[Any], hint: Any) -> _Field:
     kind, choices = _core_type(hint)
     required = field.default is dataclasses.MISSING and field.default_factory is dataclasses.MISSING
     choices = facts.choices or choices
-    return dataclasses.replace(facts, name=field.name, type=kind, default=_default_of(field), required=required, choices=choices)
+    default = _default_of(field)
+    for value in default if isinstance(default, (list, tuple)) else [default]:
+        within = not isinstance(value, (int, float)) or (math.isfinite(value) and facts.min <= value <= facts.max and value > facts.above)
+        if not within or (choices and isinstance(value, str) and value not in choices):
+            raise TypeError(f"the default of the parameter '{field.name}', {value!r}, is none that a file may give")
+    return dataclasses.replace(facts, name=field.name, type=kind, default=default, required=required, choices=choices)
 
 
 def _fields_of(params: type | None) -> list[_Field]:

@@ -26,13 +26,17 @@ Cell by_thresholds(double occupancy, const RosMapFile& file) {
   return occupancy < file.free_thresh ? Cell::free : Cell::unknown;
 }
 
+bool is_negated(const RosMapFile& file) {
+  return file.negate == "1" || file.negate == "true";
+}
+
 double occupancy(double brightness, const RosMapFile& file) {
-  return file.negate != 0 ? brightness : 1.0 - brightness;
+  return is_negated(file) ? brightness : 1.0 - brightness;
 }
 
 /// An alpha channel counts as a fourth colour.
 Cell trinary(float grey, const float* opacity, const RosMapFile& file) {
-  if (file.negate == 0 && is_saved_unknown(grey)) return Cell::unknown;
+  if (!is_negated(file) && is_saved_unknown(grey)) return Cell::unknown;
   const double brightness = opacity == nullptr ? grey : (3.0 * grey + *opacity) / 4.0;
   return by_thresholds(occupancy(brightness, file), file);
 }
@@ -98,7 +102,8 @@ void describe(ParamVisitor& v, RosMapFile& p) {
            .max_items = 3,
            .may_be_nan = true,
            .required = true});
-  v.field("negate", p.negate, {.doc = "1: light means occupied.", .min = 0.0, .max = 1.0});
+  v.field("negate", p.negate,
+          {.doc = "1 or true: light means occupied.", .choices = {"0", "1", "false", "true"}});
   v.field("occupied_thresh", p.occupied_thresh,
           {.doc = "Darker than this is occupied.", .min = 0.0, .max = 1.0});
   v.field("free_thresh", p.free_thresh, {.doc = "Lighter than this is free.", .min = 0.0, .max = 1.0});

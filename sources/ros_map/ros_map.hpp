@@ -14,7 +14,7 @@ struct RosMapFile {
   FilePath image;
   double resolution = 0.0;
   std::vector<double> origin;
-  int negate = 0;
+  std::string negate = "0";  ///< As map servers take it: a number, or a truth value.
   double occupied_thresh = 0.65;
   double free_thresh = 0.196;
   std::string mode = "trinary";

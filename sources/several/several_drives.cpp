@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "glocal/rng.hpp"
+#include "sources/several/one_of_several.hpp"
 
 namespace glocal::several {
 
@@ -24,8 +24,7 @@ void describe(ParamVisitor& v, SeveralDrives::Params& p) {
 SeveralDrives::SeveralDrives(const Params& params, const SourceSetup& setup) : in_lift_(params.in_lift) {
   for (const DriveOnMap& drive : params.drives) {
     // Drives of one world are not the same drive again.
-    SourceSetup own = setup;
-    if (!drives_.empty()) own.seed = Rng(setup.seed).stream({drives_.size()}).next();
+    const SourceSetup own = setup_of(drives_.size(), setup);
     drives_.push_back({drive.map, params.sources->make(drive.source, own)});
   }
 }

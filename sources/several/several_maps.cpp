@@ -10,6 +10,7 @@
 
 #include "glocal/error.hpp"
 #include "glocal/extent.hpp"
+#include "sources/several/one_of_several.hpp"
 
 namespace glocal::several {
 namespace {
@@ -199,7 +200,7 @@ void describe(ParamVisitor& v, SeveralMaps::Params& p) {
 SeveralMaps::SeveralMaps(const Params& params, const SourceSetup& setup) {
   for (const NamedMap& map : params.maps) {
     names_.push_back(map.name);
-    sources_.push_back(params.sources->make(map.source, setup));
+    sources_.push_back(params.sources->make(map.source, setup_of(sources_.size(), setup)));
   }
 }
 

@@ -69,6 +69,7 @@ void describe_drive(ParamVisitor& v, DriveParams& p) {
           {.doc = "Time from observation to observation, in which people walk on.",
            .unit = "s",
            .min = 0.0,
+           .max = 3600.0,
            .audience = Audience::expert});
   v.require(std::is_sorted(p.kidnappings.begin(), p.kidnappings.end(),
                            [](const Kidnapping& a, const Kidnapping& b) { return a.after_m < b.after_m; }),

@@ -110,6 +110,12 @@ TEST_F(SimulateCommand, ASiteCanBeRunAndLocalizedIn) {
   EXPECT_EQ(summary["trials"]["wrong"], 0);
 }
 
+TEST_F(SimulateCommand, AShortDriveInASiteCanBeRun) {
+  good(run("simulate --site office --side 25 --length 5 --out " + file("site")));
+  good(run("run " + file("site/experiment.yaml") + " --quiet --out " + file("results")));
+  EXPECT_EQ(nlohmann::json::parse(content(file("results/summary.json")))["trials"]["count"], 1);
+}
+
 TEST_F(SimulateCommand, TheSameSeedGivesTheSameSite) {
   const std::string simulate = "simulate --site office --side 25 --length 20 --resolution 0.1 ";
   good(run(simulate + "--seed 5 --out " + file("a")));

@@ -356,6 +356,21 @@ class BadDefault:
     parts: int = glocal.param(0.5, "How many.")
 
 
+@dataclass
+class DefaultOutOfBounds:
+    parts: int = glocal.param(0, "How many.", min=1)
+
+
+@dataclass
+class DefaultThatIsNoNumber:
+    sizes: list[float] = glocal.param([1.0, math.inf], "Of parts.", unit="m")
+
+
+@dataclass
+class DefaultThatIsNoChoice:
+    mode: str = glocal.param("quick", "How.", choices=["fast", "good"])
+
+
 @pytest.mark.parametrize(
     "made, error",
     [
@@ -363,6 +378,9 @@ class BadDefault:
         (lambda: define(Params=NoDoc), "size.*what it is for"),
         (lambda: define(Params=BadType), "no type of a parameter"),
         (lambda: define(Params=BadDefault), "default of the parameter 'parts', 0.5, is no int"),
+        (lambda: define(Params=DefaultOutOfBounds), "default of the parameter 'parts', 0, is none that a file may give"),
+        (lambda: define(Params=DefaultThatIsNoNumber), "default of the parameter 'sizes', inf, is none"),
+        (lambda: define(Params=DefaultThatIsNoChoice), "default of the parameter 'mode', 'quick', is none"),
         (lambda: define(Params=int), "dataclass"),
         (lambda: type("Made", (glocal.Rater,), {"__doc__": "Lacks all."}), "lacks the method rate"),
         (lambda: type("Made", (), {"__doc__": "Is none."}), "subclass"),

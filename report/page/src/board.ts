@@ -105,7 +105,9 @@ function byTime({ suite, entries }: BoardSuite, indexOf: (entry: Entry) => numbe
 function byLevel({ disturbances, entries }: BoardSuite, indexOf: (entry: Entry) => number): SharePanel[] {
   return disturbances.map((kind, i) => {
     const samples = entries.map((entry) => ({ label: entry.label, index: indexOf(entry), values: entry.kept[i] }));
-    return levelChart(`kept-${kind}`, `${kind}: success kept`, samples, { xLabel: "level", label: "share of the undisturbed success", range: [0, 1.1], whole: true });
+    // Few starts may do better with a disturbance than without.
+    const most = Math.max(1, ...samples.flatMap(({ values }) => values.map((share) => share ?? 0)));
+    return levelChart(`kept-${kind}`, `${kind}: success kept`, samples, { xLabel: "level", label: "share of the undisturbed success", range: [0, 1.1 * most], whole: true });
   });
 }
 

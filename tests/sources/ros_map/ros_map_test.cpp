@@ -53,8 +53,12 @@ TEST(RosMap, TrinaryKnowsThreeKindsOfCells) {
   const Row row({0, 85, 91, 204, 206, 255});
   EXPECT_THAT(row.load(thresholds(0.65, 0.196)).grid.cells, ElementsAre(o, o, u, u, f, f));
   EXPECT_THAT(row.load(thresholds(0.65, 0.25)).grid.cells, ElementsAre(o, o, u, f, f, f));
-  EXPECT_THAT(row.load(thresholds(0.65, 0.196) + "mode: trinary\nnegate: 1\n").grid.cells,
-              ElementsAre(f, u, u, o, o, o));
+  for (const std::string yes : {"1", "true"}) {
+    EXPECT_THAT(row.load(thresholds(0.65, 0.196) + "mode: trinary\nnegate: " + yes + "\n").grid.cells,
+                ElementsAre(f, u, u, o, o, o));
+  }
+  EXPECT_THAT(row.load(thresholds(0.65, 0.196) + "negate: false\n").grid.cells,
+              ElementsAre(o, o, u, u, f, f));
 }
 
 TEST(RosMap, TheGreyOfMapSaversIsUnknownWhateverTheThreshold) {

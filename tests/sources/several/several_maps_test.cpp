@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,6 +54,35 @@ TEST(SeveralMaps, AreOneGridWithUnknownCellsBetween) {
   ASSERT_EQ(map.points().size(), 2U);
   EXPECT_EQ(map.points(), occupied_centres(grid));
   EXPECT_EQ(map.path().size(), 2U);
+}
+
+/// A map whose path tells its seed.
+class Seeded final : public MapSource {
+ public:
+  struct Params {};
+  Seeded(const Params& /*params*/, const SourceSetup& setup) : seed_(static_cast<double>(setup.seed)) {}
+  [[nodiscard]] MapData load() override {
+    MapData map = small_map({});
+    map.path = {Pose2{seed_, 0.0, 0.0}};
+    return map;
+  }
+
+ private:
+  double seed_;
+};
+void describe(ParamVisitor& /*v*/, Seeded::Params& /*p*/) {}
+
+TEST(SeveralMaps, DrawRandomNumbersOfTheirOwn) {
+  Registry<MapSource, SourceSetup> sources{"map_source"};
+  sources.add<Seeded>("seeded", "Tells its seed.");
+  SeveralMaps::Params params{.sources = &sources};
+  for (const char* name : {"a", "b", "c"}) params.maps.push_back({&sources, name, sources.choose("seeded")});
+  SourceSetup setup;
+  setup.seed = 7;
+  std::set<double> seeds;
+  for (const Pose3& pose : SeveralMaps(params, setup).load().path) seeds.insert(pose.x);
+  EXPECT_EQ(seeds.size(), 3U);
+  EXPECT_TRUE(seeds.contains(7.0)) << "the first draws as it would alone";
 }
 
 TEST(SeveralMaps, TellEachPoseInTheFrameOfItsOwnMap) {
