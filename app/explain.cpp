@@ -37,6 +37,7 @@ struct ExplainedRun {
   std::filesystem::path folder;
   Experiment experiment;
   std::size_t trial = 0, step = 0;
+  std::optional<double> omega_best;  ///< Of the step, as the run has noted it; none if it noted no steps.
 };
 
 /// One step of a trial, made again.
@@ -271,10 +272,16 @@ ExplainedRun explained_run(const ExplainOptions& options, Context& context) {
                       fmt::format("holds {} folders of results; name one of them", folders.size()));
   std::size_t last_trial = 0;
   std::optional<std::size_t> steps;  // Of the trial.
+  std::optional<double> omega_best;
   LineReaders lines;
   lines.trial = [&](const nlohmann::ordered_json& trial) {
     last_trial = trial.at("trial").get<std::size_t>();
     if (last_trial == options.trial) steps = trial.at("steps").get<std::size_t>();
+  };
+  lines.step = [&](const nlohmann::ordered_json& step) {
+    const auto number = step.at("step").get<std::size_t>();
+    if (step.at("trial").get<std::size_t>() == options.trial && number == options.step.value_or(number))
+      omega_best = step.at("omega_best").get<double>();
   };
   static_cast<void>(read_results(folders.front(), lines));
   if (!options.step && !steps)
@@ -283,7 +290,7 @@ ExplainedRun explained_run(const ExplainOptions& options, Context& context) {
   const std::size_t last = steps.value_or(0) > 0 ? *steps - 1 : 0;
   return {folders.front(),
           read_stored_experiment(folders.front() / "effective.yaml", options.trust_plugins, context),
-          options.trial, options.step.value_or(last)};
+          options.trial, options.step.value_or(last), omega_best};
 }
 
 /// Throws ConfigError if a file is not what the run read: what follows would be of another run.
@@ -305,6 +312,13 @@ void explain(const ExplainOptions& options, Context& context) {
   check_unchanged(run.folder, loaded.inputs);
   const Replayed step = replay(options.folder, run, context.catalog, loaded, Threshold::configured);
   const StepResult& result = step.result;
+  if (run.omega_best && *run.omega_best != result.omega_best) {
+    throw ConfigError(
+        options.folder,
+        fmt::format("another glocal made it: the best Omega of step {} was {:.6f}, and is {:.6f}; "
+                    "run the experiment again",
+                    run.step, *run.omega_best, result.omega_best));
+  }
   const Pose3& truth = step.map_from_robot;
   const Fit fit = fit_of(step, *loaded.map);
 

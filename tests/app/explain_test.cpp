@@ -76,6 +76,17 @@ TEST_F(ExplainCommand, MakesTheStepAgain) {
   EXPECT_THAT(lost(last), HasSubstr("nowhere: declared, and right"));
 }
 
+TEST_F(ExplainCommand, RefusesResultsThatTheStepsMadeAgainDoNotHave) {
+  run_lab();
+  std::string steps = content(folder() + "/steps.jsonl");
+  const std::size_t omega = steps.find("\"omega_best\":") + 13;
+  steps.replace(omega, steps.find(',', omega) - omega, "0.125");
+  std::ofstream(folder() + "/steps.jsonl") << steps;
+  EXPECT_THAT(refusal(run("explain " + folder() + " --trial 0 --step 0")),
+              HasSubstr("another glocal made it: the best Omega of step 0 was 0.125000, and is 0."));
+  EXPECT_THAT(explained(1), HasSubstr("step 1, "));
+}
+
 TEST_F(ExplainCommand, NeverDrawn) {
   run_lab("--set localizer.matcher.ransam.iterations=1");
   EXPECT_EQ(recorded(0)["proposals"], 0);
