@@ -251,7 +251,7 @@ void describe(ParamVisitor& v, Mcl::Params& p) {
   v.field("z_hit", p.z_hit, {.doc = "Weight of beams that meet what the map says.", .min = 0.0, .max = 1.0});
   v.field(
       "laser_max_range", p.laser_max_range,
-      {.doc = "Range of the laser, over which z_rand is spread.", .unit = "m", .above = 0.0, .max = 10000.0});
+      {.doc = "Range of the laser, over which z_rand is spread.", .unit = "m", .max = 10000.0, .above = 0.0});
   describe_contact_epsilon(v, p.contact_epsilon);
 }
 

@@ -111,7 +111,7 @@ TEST_F(SimulateCommand, ASiteCanBeRunAndLocalizedIn) {
 }
 
 TEST_F(SimulateCommand, AShortDriveInASiteCanBeRun) {
-  good(run("simulate --site office --side 25 --length 5 --out " + file("site")));
+  good(run("simulate --site office --side 25 --length 10 --out " + file("site")));
   good(run("run " + file("site/experiment.yaml") + " --quiet --out " + file("results")));
   EXPECT_EQ(nlohmann::json::parse(content(file("results/summary.json")))["trials"]["count"], 1);
 }
