@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -66,7 +67,10 @@ class LiveLocalizer {
             [this](const LiveMessage& message) {
               is_asked_to_begin_ = is_asked_to_begin_ || message.topic == begin();
             },
-            [this] { return go_on(); }),
+            [this] {
+              if (last_step_ && Clock::now() - *last_step_ >= between_states) write_state_once();
+              return go_on();
+            }),
         answers_(*link_, *loaded_.map, params().topics.name_space, frames(options)),
         steps_file_(options.steps_file()),
         steps_(steps_file_, std::ios::binary),
@@ -90,6 +94,7 @@ class LiveLocalizer {
       if (!link_->is_live()) wait();
     }
     wait();
+    write_state_once();
     answer(
         "{} observations, {} declarations{}\n", observations_, declarations_,
         drive_.passed_over() > 0 ? fmt::format(", {} observations passed over", drive_.passed_over()) : "");
@@ -97,6 +102,9 @@ class LiveLocalizer {
   }
 
  private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr std::chrono::seconds between_states{5};
+
   static SourceSetup setup(const Experiment& experiment) {
     return {.seed = seed_of(RandomPart::observation_source, experiment),
             .motion = experiment.localizer.motion,
@@ -176,9 +184,9 @@ class LiveLocalizer {
     localizer_.expect(*expected);
   }
 
-  /// At each declaration, and every few seconds.
+  /// At each declaration, and every few seconds. A robot that stands still has no more steps: then once it
+  /// has stood for as long.
   void keep(const StepResult& result, const Pose3& driven, bool is_newly_declared) {
-    constexpr double between_s = 5.0;
     if (state_file_.empty()) return;
     if (result.verdict.kind == VerdictKind::localized) {
       const auto& estimate = result.verdict.estimate;
@@ -191,8 +199,16 @@ class LiveLocalizer {
     }
     if (!state_) return;
     state_->stamp = result.stamp;
-    if (!is_newly_declared && std::abs(result.stamp - kept_at_) < between_s) return;
-    kept_at_ = result.stamp;
+    last_step_ = Clock::now();
+    const std::chrono::duration<double> since(std::abs(result.stamp - kept_at_));
+    if (is_newly_declared || since >= between_states) write_state_once();
+  }
+
+  /// The latest, unless it is written already.
+  void write_state_once() {
+    if (!last_step_ || !state_) return;
+    last_step_.reset();
+    kept_at_ = state_->stamp;
     try {
       write_state(state_file_, *state_);
     } catch (const RunError& error) {
@@ -271,11 +287,14 @@ class LiveLocalizer {
   std::optional<VerdictKind> last_verdict_;
   std::string state_file_, fingerprint_;  ///< Empty where nothing is kept.
   std::optional<LiveState> state_;
-  double kept_at_ = 0.0;  ///< s
+  double kept_at_ = 0.0;                        ///< s
+  std::optional<Clock::time_point> last_step_;  ///< If its state is not written yet.
 };
 
 void live(const LiveOptions& options, Context& context) {
-  const LocalizePlan plan = plan_live(options.request, context.catalog);
+  LiveRequest request = options.request;
+  request.plugins = context.plugins.loaded();
+  const LocalizePlan plan = plan_live(request, context.catalog);
   std::optional<FoxgloveServer> viewers;
   if (options.has_viewers) viewers.emplace(options.address, options.port);
   const std::string file = options.out + ".yaml";
@@ -311,8 +330,10 @@ void add_live(CLI::App& app, Context& context) {
       ->add_option("MAP", request.map,
                    "Map server's YAML, cloud (PCD, PLY), octree, recording with a map, or topic:/map")
       ->required();
-  command->add_option("--also", request.more_maps,
-                      "Another map, as of another floor; the robot is on any of them (may be repeated)");
+  command
+      ->add_option("--also", request.more_maps,
+                   "Another map, as of another floor; the robot is on any of them (may be repeated)")
+      ->allow_extra_args(false);
   CLI::Option* recording =
       command->add_option("--recording", request.recording, "ROS bag or MCAP in place of the robot");
   command->add_flag("--real-time", request.in_real_time, "The recording's messages come at their times")

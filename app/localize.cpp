@@ -142,6 +142,7 @@ Prior prior_of(const LocalizeOptions& options) {
 void localize(const LocalizeOptions& options, Context& context) {
   LocalizeRequest request = options.request;
   request.prior = prior_of(options);
+  request.plugins = context.plugins.loaded();
   ReadingBar bar;
   request.progress = bar.call();
   const LocalizePlan plan = plan_localization(request, context.catalog);
@@ -177,8 +178,10 @@ void add_localize(CLI::App& app, Context& context) {
   command
       ->add_option("MAP", request.map, "Map server's YAML, cloud (PCD, PLY), octree, or recording with a map")
       ->required();
-  command->add_option("--also", request.more_maps,
-                      "Another map, as of another floor; the robot is on any of them (may be repeated)");
+  command
+      ->add_option("--also", request.more_maps,
+                   "Another map, as of another floor; the robot is on any of them (may be repeated)")
+      ->allow_extra_args(false);
   command->add_option("LOG", request.log, "ROS bag, MCAP, CARMEN log, or folder of clouds with odometry.tum")
       ->required();
   CLI::Option* start =

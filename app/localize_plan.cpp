@@ -38,6 +38,10 @@ std::string path_entry(const std::string& name, const fs::path& path) {
   return entry(name, fs::absolute(path).lexically_normal().string());
 }
 
+std::vector<std::string> strings_of(const std::vector<fs::path>& files) {
+  return {files.begin(), files.end()};
+}
+
 /// How a map is read.
 struct MapChoice {
   std::string yaml, text;
@@ -52,7 +56,7 @@ bool is_file_of_octree(const fs::path& map) {
 /// The plugin knows of free voxels, too.
 MapChoice choose_octree(const std::string& path, const Catalog& catalog) {
   if (catalog.map_sources.find("octomap") != nullptr)
-    return {fmt::format("octomap: {{{}}}", path), "an octree", true};
+    return {fmt::format("octomap: {{{}, points: space}}", path), "an octree", true};
   return {fmt::format("point_cloud: {{{}}}", path),
           "an octree, its occupied voxels only: the plugin octomap, which reads the free ones, is not loaded",
           true};
@@ -295,6 +299,8 @@ LocalizePlan plan_live(const LiveRequest& request, const Catalog& catalog) {
     changes["looks_per_step"] = "0";
   else if (!is_set(method, "looks_per_step", catalog))
     changes["looks_per_step"] = fmt::format("{}", looks_of_piece);
+  std::vector<std::string> plugins = strings_of(request.plugins);
+  if (request.recording.empty()) plugins.emplace_back("plugin:ros2");
   plan.experiment = fmt::format(
       "# Written by glocal live.\n"
       "schema: 1\n"
@@ -306,10 +312,7 @@ LocalizePlan plan_live(const LiveRequest& request, const Catalog& catalog) {
       "  {}"
       "trials: {{whole: true}}\n"
       "{}",
-      map.yaml, live_drive_yaml(request),
-      localizer_yaml(
-          method, changes, catalog,
-          request.recording.empty() ? std::vector<std::string>{"plugin:ros2"} : std::vector<std::string>{}));
+      map.yaml, live_drive_yaml(request), localizer_yaml(method, changes, catalog, plugins));
   return plan;
 }
 
@@ -341,7 +344,7 @@ LocalizePlan plan_localization(const LocalizeRequest& request, const Catalog& ca
       "trials: {{{}}}\n"
       "{}",
       entry("name", plan.name), map.yaml, log.yaml, trials_of(request),
-      localizer_yaml(method, changes, catalog));
+      localizer_yaml(method, changes, catalog, strings_of(request.plugins)));
   return plan;
 }
 

@@ -30,6 +30,7 @@ struct LocalizeRequest {
   std::string method;     ///< Name or file; empty: one that fits the map.
   bool whole = false;     ///< Goes on after the declaration, to the end of the drive.
   Prior prior;            ///< Of each start.
+  std::vector<std::filesystem::path> plugins;  ///< Files, which the experiment is to name.
   TellProgress progress = [](double) {};
 };
 
@@ -58,6 +59,7 @@ struct LiveRequest {
   std::string name_space;              ///< Of the robot's topics.
   std::vector<double> heights;         ///< m; of clouds.
   std::string method;                  ///< Name or file; empty: one that fits the map.
+  std::vector<std::filesystem::path> plugins;  ///< Files, which the experiment is to name.
 };
 
 /// The same for a robot that drives. Its trials are a single one that does not end.

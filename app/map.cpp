@@ -75,6 +75,8 @@ void write(const MapData& map, const MapOptions& options) {
   if (out.extension() == ".pcd") {
     files.add(out, pcd(map.points, map.origin));
   } else if (out.extension() == ".yaml") {
+    if (map.grid.cells.empty())
+      throw ConfigError(options.out, "the map has points and no cells; name a .pcd file");
     const ros_map::ByteImage image = ros_map::trinary_image(map.grid);
     const std::filesystem::path image_file = std::filesystem::path(out).replace_extension(options.image);
     files.add(image_file, options.image == "png" ? ros_map::png(image) : ros_map::pgm(image));

@@ -87,6 +87,10 @@ SimulatedFiles simulated_experiment(const ExperimentOptions& options, Context& c
                                   experiment.observations.name));
   }
   MapData map = load_map(experiment, catalog, setup);
+  if (map.grid.cells.empty())
+    throw ConfigError(
+        options.file,
+        fmt::format("map: {} has no cells, of which a map of a planar laser is made", experiment.map.name));
   SimulatedFiles files{std::move(*drive), std::move(map.grid), {}, experiment.threads, map.origin};
   experiment.map = recorded_map();
   experiment.observations = std::move(files.drive.source);

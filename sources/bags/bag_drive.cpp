@@ -141,17 +141,17 @@ std::vector<BagDrive::Frame> BagDrive::frames_of_first_topic() {
       ++backwards;
       continue;
     }
-    if (i > 0 && seconds(stamp - last) > longest_pause) {
-      warn_(fmt::format("{}: stamps jump by {:.0f} s; what follows is a drive of its own", at,
-                        seconds(stamp - last)));
-      ++pauses;
-    }
-    last = stamp;
     const auto odometry = contents_.odometry_at(stamp, longest_gap_ns);
     if (!odometry || !placer_.robot_from_sensor(scans.frame, stamp)) {
       ++lost;
       continue;
     }
+    if (!frames.empty() && seconds(stamp - last) > longest_pause) {
+      warn_(fmt::format("{}: stamps jump by {:.0f} s; what follows is a drive of its own", at,
+                        seconds(stamp - last)));
+      ++pauses;
+    }
+    last = stamp;
     frames.push_back({stamp, i, is_planar_ ? Pose3(seen_from_above(*odometry)) : *odometry, pauses});
   }
   if (backwards > 0)

@@ -163,8 +163,12 @@ std::string serialized(const StampedFramePose& pose) {
   return CdrWriter().header(pose.header).rigid_motion(pose.pose).message();
 }
 
+std::string type_in_ros2(const std::string& type) {
+  return type == "tf/tfMessage" ? "tf2_msgs/TFMessage" : type;
+}
+
 std::string as_cdr(const RecordedMessage& ros1_message) {
-  return Recoder(ros1_message).recoded(ros1_message.connection->type);
+  return Recoder(ros1_message).recoded(type_in_ros2(ros1_message.connection->type));
 }
 
 }  // namespace glocal::bags

@@ -50,6 +50,9 @@ class CdrWriter {
 /// geometry_msgs/PoseStamped; the covariance is left out.
 [[nodiscard]] std::string serialized(const StampedFramePose& pose);
 
+/// What ROS 2 calls a type of ROS 1: tf/tfMessage is tf2_msgs/TFMessage, and others keep their names.
+[[nodiscard]] std::string type_in_ros2(const std::string& type);
+
 /// A message of ROS 1 as ROS 2 has it: all fields but the headers' sequence numbers. Throws ConfigError for a
 /// message that breaks its definition. Its type must be one of definition_of().
 [[nodiscard]] std::string as_cdr(const RecordedMessage& ros1_message);

@@ -123,8 +123,8 @@ DriveContents& ContentsReader::settle(bool more_may_come) {
   for (auto& [topic, odometry] : odometry_) odometry.poses.settle();
   contents_.reference.settle();
   contents_.mounts.clear();
-  choose_frames(more_may_come);
-  contents_.tf_reference = contents_.tree.path(wanted_.reference_frame, contents_.base_frame);
+  choose_frames();
+  contents_.tf_reference = contents_.tree.path(wanted_.reference_frame, contents_.base_frame, true);
   if (!wanted_.reference_frame.empty() && !contents_.tf_reference)
     fail(fmt::format("tf does not connect {} with {}; set {} to a topic or a frame of the tree, which is\n{}",
                      shown(wanted_.reference_frame), shown(contents_.base_frame),
@@ -166,7 +166,7 @@ void ContentsReader::take_scan(const RecordedMessage& message) {
 }
 
 /// tf's odometry before that of a topic, as it is that of which all else in the tree knows.
-void ContentsReader::choose_frames(bool more_may_come) {
+void ContentsReader::choose_frames() {
   DriveContents& c = contents_;
   const TransformTree& tree = c.tree;
   c.odom_frame = wanted_.odom_frame.empty() ? "odom" : wanted_.odom_frame;
@@ -177,7 +177,7 @@ void ContentsReader::choose_frames(bool more_may_come) {
   });
   if (wanted_.odometry.empty() && base != bases.end()) {
     c.base_frame = *base;
-    c.tf_odometry = tree.path(c.odom_frame, c.base_frame, more_may_come);
+    c.tf_odometry = tree.path(c.odom_frame, c.base_frame, true);
     return;
   }
   choose_odometry_topic(bases);

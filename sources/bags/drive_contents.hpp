@@ -87,7 +87,7 @@ class ContentsReader {
   [[noreturn]] void fail(const std::string& message) const;
   [[nodiscard]] std::string name_of(std::string_view key) const;
   void take_scan(const RecordedMessage& message);
-  void choose_frames(bool more_may_come);
+  void choose_frames();
   void choose_odometry_topic(const std::vector<std::string>& bases);
   void check_sensors();
   [[nodiscard]] std::string tree_text() const;

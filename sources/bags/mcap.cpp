@@ -36,7 +36,7 @@ class McapFile final : public ChunkedFile {
   McapFile(const std::filesystem::path& file, const Reading& reading) : ChunkedFile(file, reading) {
     scan();
     // Only a summary names the channels of chunks outside of them.
-    if (!has_summary_) find_channels();
+    if (!has_whole_summary_) find_channels();
     is_open_ = true;
   }
 
@@ -46,17 +46,19 @@ class McapFile final : public ChunkedFile {
   /// Goes through all records and skips what chunks hold. Messages outside of chunks are taken together as
   /// uncompressed ones.
   void scan() {
-    bool is_behind_data = false, has_end = false;
+    bool has_end = false, has_channels = false;
     const std::uint64_t end =
         go_through_records(mcap_mark.size(), [&](std::uint64_t at) -> std::optional<std::uint64_t> {
           const McapRecord record = record_at(at);
-          is_behind_data |= record.op == McapOp::data_end;
+          is_in_summary_ |= record.op == McapOp::data_end;
           has_end = record.op == McapOp::footer;
-          has_summary_ |= is_behind_data && record.op == McapOp::channel;
+          has_channels |= is_in_summary_ && record.op == McapOp::channel;
           note_record(at, record);
           if (has_end) return std::nullopt;
           return at + record_head + record.size;
         });
+    has_whole_summary_ = has_end && has_channels && !lacks_schemas_;
+    is_in_summary_ = false;
     if (end == mcap_mark.size()) file_.refuse(end, "the recording has no record; get a fresh copy");
     if (!has_end && end == file_.size())
       reading_.note(fmt::format("{}: byte {}: the recording ends without a footer; it may lack messages",
@@ -145,9 +147,13 @@ class McapFile final : public ChunkedFile {
     if (channels_.contains(id)) return;
     // A channel without a schema has 0.
     const auto found = schemas_.find(schema);
-    if (schema != 0 && found == schemas_.end())
+    if (schema != 0 && found == schemas_.end()) {
+      // A summary need not repeat schemas; then chunks tell the channel.
+      lacks_schemas_ |= is_in_summary_;
+      if (is_in_summary_) return;
       fields.refuse(fmt::format(
           "channel {} has the schema {}, which no record before it is; get a fresh copy", id, schema));
+    }
     const auto& [type, definition] = found == schemas_.end() ? no_schema_ : found->second;
     channels_.emplace(id, connections_.size());
     connections_.push_back({std::string(topic), type, std::string(encoding), definition});
@@ -208,7 +214,7 @@ class McapFile final : public ChunkedFile {
   std::map<std::uint16_t, std::size_t> channels_;
   std::map<std::uint64_t, std::set<std::uint16_t>> indexed_;  ///< Channels of chunks, by offset.
   std::uint64_t loose_messages_end_ = 0;                      ///< 0: the record before was none.
-  bool has_summary_ = false;
+  bool is_in_summary_ = false, lacks_schemas_ = false, has_whole_summary_ = false;
   bool is_open_ = false;  ///< From then on there are no new channels.
 };
 

@@ -68,8 +68,9 @@ std::optional<FramePath> TransformTree::path(const std::string& in, const std::s
 FramePath::Climb TransformTree::climb(const std::vector<std::string>& line, const std::string& top,
                                       bool may_move) const {
   FramePath::Climb climb;
+  climb.may_move = may_move;
   for (auto frame = line.begin(); *frame != top; ++frame)
-    climb.add(edges_.at(*frame).at(parents_.at(*frame)), may_move);
+    climb.add(edges_.at(*frame).at(parents_.at(*frame)));
   return climb;
 }
 
@@ -78,12 +79,15 @@ std::optional<Pose3> TransformEdge::still() const {
   return track.is_still() ? std::optional(track.first()) : std::nullopt;
 }
 
-std::optional<Pose3> TransformEdge::at(std::int64_t stamp_ns, std::int64_t max_gap_ns) const {
-  const auto always = may_grow ? fixed : still();
-  return always ? always : track.at(stamp_ns, max_gap_ns);
+std::optional<Pose3> TransformEdge::at(std::int64_t stamp_ns, std::int64_t max_gap_ns, bool may_move) const {
+  if (fixed) return fixed;
+  if (may_grow || !track.is_still()) return track.at(stamp_ns, max_gap_ns);
+  const auto [first_ns, last_ns] = track.span();
+  const bool is_told = stamp_ns >= first_ns - max_gap_ns && stamp_ns <= last_ns + max_gap_ns;
+  return may_move && !is_told ? std::nullopt : std::optional(track.first());
 }
 
-void FramePath::Climb::add(const TransformEdge& edge, bool may_move) {
+void FramePath::Climb::add(const TransformEdge& edge) {
   const auto parent_from_frame = may_move ? edge.fixed : edge.still();
   if (moving.empty() && parent_from_frame) {
     still = *parent_from_frame * still;
@@ -95,7 +99,7 @@ void FramePath::Climb::add(const TransformEdge& edge, bool may_move) {
 std::optional<Pose3> FramePath::Climb::top_from_frame(std::int64_t stamp_ns, std::int64_t max_gap_ns) const {
   Pose3 top_from_frame = still;
   for (const TransformEdge* edge : moving) {
-    const auto parent_from_frame = edge->at(stamp_ns, max_gap_ns);
+    const auto parent_from_frame = edge->at(stamp_ns, max_gap_ns, may_move);
     if (!parent_from_frame) return std::nullopt;
     top_from_frame = *parent_from_frame * top_from_frame;
   }

@@ -22,8 +22,8 @@ struct TransformEdge {
   /// The pose that it always has, or has had so far; none if it moves.
   [[nodiscard]] std::optional<Pose3> still() const;
   /// The pose at a time (PoseTrack::at). One that is still, and can no longer change, has its pose at all
-  /// times.
-  [[nodiscard]] std::optional<Pose3> at(std::int64_t stamp_ns, std::int64_t max_gap_ns) const;
+  /// times, or if it `may_move` as long as it is told, give or take `max_gap_ns`.
+  [[nodiscard]] std::optional<Pose3> at(std::int64_t stamp_ns, std::int64_t max_gap_ns, bool may_move) const;
 };
 
 /// The way through a tree from one frame to another one. Valid as long as its tree is, or what that was moved
@@ -42,8 +42,9 @@ class FramePath {
   struct Climb {
     Pose3 still;                                    ///< Of the first edges together, all of which are.
     std::vector<const TransformEdge*> moving = {};  ///< Those from the first on that is not.
+    bool may_move = false;
 
-    void add(const TransformEdge& edge, bool may_move);
+    void add(const TransformEdge& edge);
     [[nodiscard]] std::optional<Pose3> top_from_frame(std::int64_t stamp_ns, std::int64_t max_gap_ns) const;
   };
   Climb from_first_, from_second_;
@@ -60,7 +61,8 @@ class TransformTree {
   void forget_before(std::int64_t stamp_ns);
 
   /// The pose of one frame in the other over time; each frame has a way to itself. None if no way connects
-  /// them. What has been still so far is taken to stay so, as sensors on a robot do, unless it `may_move`.
+  /// them. What has been still so far is taken to stay so, as sensors on a robot do, unless it `may_move`, as
+  /// the robot does.
   [[nodiscard]] std::optional<FramePath> path(const std::string& in, const std::string& of,
                                               bool may_move = false) const;
   [[nodiscard]] const std::map<std::string, std::string>& parents() const { return parents_; }

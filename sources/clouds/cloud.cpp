@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "glocal/error.hpp"
+#include "glocal/limits.hpp"
 #include "glocal/words.hpp"
 #include "sources/text_lines.hpp"
 
@@ -75,6 +76,7 @@ CloudBuilder::CloudBuilder(std::string file, const CloudOptions& options, const 
       unit_(options.unit),
       time_unit_(time_unit),
       map_motion_(options.map_motion),
+      is_scan_(options.is_scan),
       has_normals_(columns[index_of(Channel::normal_x)].has_value()),
       has_times_(columns[index_of(Channel::time)].has_value()) {}
 
@@ -112,13 +114,15 @@ void CloudBuilder::add_normal(const Vector3& normal) {
 }
 
 Cloud CloudBuilder::finish() {
-  if (points_ == 0) refuse_cloud(file_, 0, "has no points; give another file");
-  if (cloud_.points.empty())
+  if (points_ == 0 && !is_scan_) refuse_cloud(file_, 0, "has no points; give another file");
+  if (cloud_.points.empty() && !is_scan_)
     refuse_cloud(file_, 0,
                  fmt::format("none of its {} points has finite coordinates; give another file", points_));
-  if (has_times_) {
-    const double first = *std::min_element(cloud_.times.begin(), cloud_.times.end());
-    for (double& time : cloud_.times) time -= first;
+  if (!cloud_.times.empty()) {
+    const auto [first, last] = std::minmax_element(cloud_.times.begin(), cloud_.times.end());
+    if (const std::string fault = fault_of_scan_times(*first, *last); is_scan_ && !fault.empty())
+      refuse_cloud(file_, 0, fault + "; write decimals in seconds, or whole numbers in nanoseconds");
+    for (double& time : cloud_.times) time -= *first;
   }
   return std::move(cloud_);
 }

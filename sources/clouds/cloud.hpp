@@ -18,7 +18,7 @@ namespace glocal::clouds {
 
 /// What a file says of its points. Points with a coordinate or time that is no finite number are left out.
 struct Cloud {
-  Points points;                     ///< m, in the file's frame less `origin`. Never empty.
+  Points points;                     ///< m, in the file's frame less `origin`. Empty only of a scan.
   Vector3 origin = Vector3::Zero();  ///< m; other than 0 only of a map's cloud.
   Points normals;                    ///< Unit normals, one for each point; empty unless all points have one.
   std::vector<double> times;         ///< s since the earliest point, one for each point; empty if not known.
@@ -33,6 +33,8 @@ struct CloudOptions {
   double max_size_gb = default_max_size_gb;
   /// Of a map, what of poses is looked for in it: points are relative to an origin_near() the first one.
   std::optional<Motion> map_motion = {};
+  /// Of a drive: it may be empty, and times of points are those of its rays, within limits.hpp's bounds.
+  bool is_scan = false;
 };
 
 /// The field that says `unit`, for everything that reads clouds.
@@ -67,7 +69,7 @@ class CloudBuilder {
   /// The next point; values of channels without column are ignored. Throws ConfigError if it is beyond
   /// `farthest_m`.
   void add(const PointValues& values, int line = 0);
-  /// Throws ConfigError if no point is left.
+  /// Throws ConfigError if no point is left, but of a scan, whose times it checks.
   [[nodiscard]] Cloud finish();
 
  private:
@@ -76,7 +78,7 @@ class CloudBuilder {
   std::string file_;
   double unit_, time_unit_;
   std::optional<Motion> map_motion_;
-  bool has_normals_, has_times_;
+  bool is_scan_, has_normals_, has_times_;
   std::size_t points_ = 0;  ///< Added, of any kind.
   Cloud cloud_;
 };

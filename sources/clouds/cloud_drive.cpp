@@ -115,8 +115,10 @@ std::optional<Sample> CloudDrive::next() {
   if (next_ == clouds_.size()) return std::nullopt;
   const std::size_t number = next_++;
   const DriveCloud& source = clouds_[number];
-  const Cloud cloud = read_cloud(source.file, {params_.unit});
-  if (number == 0) {
+  const Cloud cloud = read_cloud(source.file, {.unit = params_.unit, .is_scan = true});
+  if (cloud.points.empty() && !std::exchange(has_warned_, true))
+    warn_(source.file.string() + ": has no points; others like it are not told");
+  if (number == 0 && !cloud.points.empty()) {
     for (const std::string& remark : cloud_remarks(cloud)) warn_(source.file.string() + ": " + remark);
   }
   return Sample{

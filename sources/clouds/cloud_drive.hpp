@@ -58,6 +58,7 @@ class CloudDrive final : public ObservationSource {
 
   Params params_;
   Warn warn_;
+  bool has_warned_ = false;  ///< Of clouds without points.
   Pose3 robot_from_sensor_;
   std::vector<DriveCloud> clouds_;  ///< Those that are used, with poses of the robot.
   std::size_t next_ = 0;

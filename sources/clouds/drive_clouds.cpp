@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "glocal/error.hpp"
+#include "glocal/limits.hpp"
 #include "sources/clouds/cloud_file.hpp"
 #include "sources/clouds/trajectory_file.hpp"
 #include "sources/text_lines.hpp"
@@ -34,6 +35,8 @@ bool set_stamps(std::vector<DriveCloud>& clouds) {
   for (DriveCloud& cloud : clouds) {
     const auto stamp = stamp_in_name(cloud.file);
     if (!stamp) return false;
+    if (const std::string fault = fault_of_stamp(*stamp); !fault.empty())
+      throw ConfigError(cloud.file, fault);
     cloud.stamp = *stamp;
   }
   return true;
@@ -146,10 +149,13 @@ std::optional<double> stamp_in_name(const fs::path& file) {
   const std::string digits = before == std::string::npos ? name : name.substr(before + 1);
   const auto number = number_in(digits);
   if (!number) return std::nullopt;
+  // Counts have fewer digits, and so have seconds.
+  constexpr double first_of_microseconds = 1e15, microseconds = 1e6;
   constexpr double first_of_nanoseconds = 1e16, nanoseconds = 1e9;
   if (const auto seconds = seconds_before(name, before); seconds && digits.size() == 9)
     return *seconds + *number / nanoseconds;
-  return *number >= first_of_nanoseconds ? *number / nanoseconds : *number;
+  if (*number >= first_of_nanoseconds) return *number / nanoseconds;
+  return *number >= first_of_microseconds ? *number / microseconds : *number;
 }
 
 std::vector<DriveCloud> drive_clouds(const DriveFiles& files, const Warn& warn) {

@@ -23,7 +23,7 @@ std::optional<DriveScan> CloudFolderReader::next() {
   progress_(static_cast<double>(next_) / static_cast<double>(clouds_.size()));
   if (next_ == clouds_.size()) return std::nullopt;
   const clouds::DriveCloud& source = clouds_[next_++];
-  clouds::Cloud cloud = clouds::read_cloud(source.file);
+  clouds::Cloud cloud = clouds::read_cloud(source.file, {.is_scan = true});
   DriveScan scan;
   scan.stamp_ns = nanoseconds_of(source.stamp);
   scan.odom_from_robot = *source.odometry;

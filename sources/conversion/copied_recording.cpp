@@ -16,11 +16,6 @@
 namespace glocal::conversion {
 namespace {
 
-/// What ROS 2 calls a type of ROS 1.
-std::string type_of(const bags::Connection& connection) {
-  return connection.type == "tf/tfMessage" ? "tf2_msgs/TFMessage" : connection.type;
-}
-
 class RecordingCopier {
  public:
   RecordingCopier(bags::Recording& recording, bags::McapWriter::Sink sink)
@@ -50,10 +45,7 @@ class RecordingCopier {
       if (connection.encoding == "cdr") {
         writer_.write(*channel->second, message.stamp_ns, message.bytes);
       } else {
-        bags::Connection as_ros2 = connection;
-        as_ros2.type = type_of(connection);
-        writer_.write(*channel->second, message.stamp_ns,
-                      bags::as_cdr({&as_ros2, message.stamp_ns, message.bytes, message.place}));
+        writer_.write(*channel->second, message.stamp_ns, bags::as_cdr(message));
       }
       ++copied_.messages;
     } catch (const ConfigError& error) {
@@ -63,7 +55,7 @@ class RecordingCopier {
 
   /// None if its messages cannot be written.
   std::optional<std::uint16_t> channel_of(const bags::Connection& connection) {
-    const std::string type = type_of(connection);
+    const std::string type = bags::type_in_ros2(connection.type);
     const bool is_cdr = connection.encoding == "cdr";
     if (!is_cdr && connection.encoding != "ros1") return std::nullopt;
     const std::string definition =

@@ -22,11 +22,8 @@ void require_known(const LiveTopic& topic) {
                                 shown(topic.type)));
 }
 
-/// As ROS 2 has it; none where nobody knows how.
-std::optional<std::string> cdr_of(const bags::RecordedMessage& message) {
-  if (message.connection->encoding == "cdr") return std::string(message.bytes);
-  if (bags::definition_of(message.connection->type).empty()) return std::nullopt;
-  return bags::as_cdr(message);
+LiveTopic topic_of(const bags::Connection& connection) {
+  return {connection.topic, bags::type_in_ros2(connection.type)};
 }
 
 }  // namespace
@@ -42,7 +39,7 @@ void describe(ParamVisitor& v, RecordingLink::Params& p) {
 }
 
 RecordingLink::RecordingLink(const Params& params, const SourceSetup& setup)
-    : is_live_(params.in_real_time), recording_(params.path.resolved) {
+    : is_live_(params.in_real_time), warn_(setup.warn), recording_(params.path.resolved) {
   for (const auto& input : recording_.inputs()) setup.note_input(input);
   recording_.rewind();
 }
@@ -56,6 +53,20 @@ void RecordingLink::publish(const LiveTopic& topic, Delivery /*delivery*/, std::
   require_known(topic);
 }
 
+std::optional<std::string> RecordingLink::cdr_of(const bags::RecordedMessage& message) {
+  const bags::Connection& connection = *message.connection;
+  if (connection.encoding == "cdr") return std::string(message.bytes);
+  if (bags::definition_of(bags::type_in_ros2(connection.type)).empty()) return std::nullopt;
+  try {
+    return bags::as_cdr(message);
+  } catch (const ConfigError& error) {
+    if (!std::exchange(has_warned_, true))
+      warn_(fmt::format("a message of {} is left out: {}; others like it are not told",
+                        shown(connection.topic), error.what()));
+    return std::nullopt;
+  }
+}
+
 std::optional<LiveMessage> RecordingLink::next(std::chrono::milliseconds longest) {
   while (!waiting_ && !has_ended_) {
     const auto message = recording_.next();
@@ -64,8 +75,7 @@ std::optional<LiveMessage> RecordingLink::next(std::chrono::milliseconds longest
         !bags::is_readable(*message->connection))
       continue;
     if (auto bytes = cdr_of(*message))
-      waiting_ = {
-          {message->connection->topic, message->connection->type}, message->stamp_ns, *std::move(bytes)};
+      waiting_ = {topic_of(*message->connection), message->stamp_ns, *std::move(bytes)};
   }
   if (!waiting_) return std::nullopt;
   if (is_live_) {
@@ -84,7 +94,7 @@ std::optional<LiveMessage> RecordingLink::next(std::chrono::milliseconds longest
 std::vector<LiveTopic> RecordingLink::topics() {
   std::vector<LiveTopic> topics;
   for (const bags::Connection& connection : recording_.connections()) {
-    if (bags::is_readable(connection)) topics.push_back({connection.topic, connection.type});
+    if (bags::is_readable(connection)) topics.push_back(topic_of(connection));
   }
   std::sort(topics.begin(), topics.end(),
             [](const LiveTopic& a, const LiveTopic& b) { return a.name < b.name; });

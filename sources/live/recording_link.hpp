@@ -38,7 +38,11 @@ class RecordingLink final : public MessageLink {
  private:
   using Clock = std::chrono::steady_clock;
 
-  bool is_live_;
+  /// As ROS 2 has it; none where nobody knows how, or it is damaged.
+  std::optional<std::string> cdr_of(const bags::RecordedMessage& message);
+
+  bool is_live_, has_warned_ = false;
+  Warn warn_;
   bags::Recording recording_;
   std::set<std::string> asked_for_;
   std::optional<LiveMessage> waiting_;  ///< Its time has not come.

@@ -115,7 +115,7 @@ class SideBySide {
     if (lattice.kind != lattice_.kind)
       fail(fmt::format("'{}' has {}, and '{}' has {}; give maps of one kind", name, to_string(lattice.kind),
                        first_, to_string(lattice_.kind)));
-    constexpr double rounding = 1e-9;
+    constexpr double rounding = 1e-6;  // messages have them in single precision
     if (std::abs(lattice.side - lattice_.side) > rounding * lattice_.side)
       fail(fmt::format("'{}' has {} of {:g} m, and '{}' of {:g} m; make them anew with the same", name,
                        to_string(lattice.kind), lattice.side, first_, lattice_.side));

@@ -146,6 +146,9 @@ TEST_F(Live, KnowsAfterAPowerCycleWhereItWas) {
   const std::string state = " --out " + file("live") + " --state " + file("state.json");
   const Answer first = good(live("drive.mcap", state));
   EXPECT_THAT(first.out, Not(HasSubstr("was at")));
+  EXPECT_EQ(Json::parse(content(file("state.json")))["stamp"],
+            json_lines(file("live.steps.jsonl")).back()["stamp"])
+      << "where it was at last";
   // The drive begins anew at its start: the robot was carried there while it was off.
   const Answer second = good(live("drive.mcap", state));
   EXPECT_THAT(second.out, HasSubstr("was at"));

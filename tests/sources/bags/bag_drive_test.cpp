@@ -222,6 +222,25 @@ TEST_F(Bags, PosesHoldOnlyNearTheirTimesThoughTheyAreAllAlike) {
   EXPECT_FALSE(samples[1].map_from_robot);
 }
 
+TEST_F(Bags, OdometryByTfHoldsOnlyAsLongAsItIsToldThoughTheRobotStands) {
+  drive(0.0, 0.0, 2);
+  mount({});
+  for (const int i : {1, 2, 3}) recording_.scan("/scan", second * i, {.ranges = {2.0F}});
+  EXPECT_EQ(read().size(), 2U);
+  EXPECT_THAT(warnings_,
+              ElementsAre(HasSubstr("1 of 3 scans are left out, as tf is not known within 0.5 s")));
+}
+
+TEST_F(Bags, AStampInTheFutureLeavesOutThatScanAlone) {
+  drive(1.0, 0.0, 2);
+  mount({});
+  int received = 0;
+  for (const int i : {2, 4000, 6, 8}) recording_.scan("/scan", 100 * ms * i, {.ranges = {2.0F}}, received++);
+  EXPECT_EQ(read().size(), 3U);
+  EXPECT_THAT(warnings_,
+              ElementsAre(HasSubstr("1 of 4 scans are left out, as tf is not known within 0.5 s")));
+}
+
 TEST_F(Bags, StampsThatRunBackwardsAreToldAndLeftOut) {
   drive(1.0, 0.0, 2);
   mount({});

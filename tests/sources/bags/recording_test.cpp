@@ -83,6 +83,19 @@ TEST_F(Recordings, OfMcapAreReadInOrderOfTimeWhateverTheCompression) {
   }
 }
 
+TEST_F(Recordings, OfMcapNeedNoWholeSummary) {
+  const std::string chunks = mcap_chunk({1, 2, two_channels + mcap_message(1, 1, "one"), "zstd"}) +
+                             mcap_chunk({2, 2, mcap_message(2, 2, "two"), "zstd"});
+  const auto all = ElementsAre("1 /a one", "2 /b two");
+  // Cut behind the first channel of the summary.
+  const std::string whole = mcap_file(chunks, mcap_channel(1, "/a", "sensor_msgs/msg/LaserScan") + "END");
+  EXPECT_THAT(read(whole.substr(0, whole.rfind("END"))), all);
+  // Some writers do not repeat schemas.
+  const std::string without_schema = mcap_record(
+      4, le<std::uint16_t>(1) + le<std::uint16_t>(1) + sized("/a") + sized("cdr") + le<std::uint32_t>(0));
+  EXPECT_THAT(read(mcap_file(chunks, without_schema)), all);
+}
+
 TEST_F(Recordings, OfMcapNeedNoChunks) {
   EXPECT_THAT(read(mcap_file(two_channels + mcap_message(1, 2, "two") + mcap_message(2, 1, "one"))),
               ElementsAre("1 /b one", "2 /a two"));

@@ -48,6 +48,28 @@ class CloudDriveTest : public testing::Test {
   std::vector<std::string> inputs_;
 };
 
+TEST_F(CloudDriveTest, ACloudMayHaveNoPoints) {
+  write_clouds(3);
+  folder_.write("1.pcd", pcd(Points{}));
+  const auto samples = read();
+  ASSERT_EQ(samples.size(), 3U);
+  EXPECT_EQ(samples[1].observation.scan.hits.size(), 0U);
+  EXPECT_EQ(samples[2].observation.scan.hits.size(), samples[0].observation.scan.hits.size());
+}
+
+TEST_F(CloudDriveTest, RefusesTimesThatCannotBe) {
+  folder_.write("0.pcd",
+                "VERSION .7\nFIELDS x y z t\nSIZE 4 4 4 8\nTYPE F F F F\nCOUNT 1 1 1 1\nWIDTH 2\nHEIGHT 1\n"
+                "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 2\nDATA ascii\n1 0 0 0\n2 0 0 1e8\n");
+  EXPECT_EQ(
+      test::config_error(folder_.path(), [&] { static_cast<void>(read()); }),
+      "0.pcd: error: its readings' times are from 0 to 1e+08 s, at most 1000 s apart are allowed; write "
+      "decimals in seconds, or whole numbers in nanoseconds");
+  std::filesystem::rename(folder_.path() / "0.pcd", folder_.path() / "10000000000.pcd");
+  EXPECT_THAT(test::config_error(folder_.path(), [&] { static_cast<void>(read()); }),
+              testing::StartsWith("10000000000.pcd: error: "));
+}
+
 TEST_F(CloudDriveTest, WithoutOdometryIsSingleClouds) {
   write_clouds(3);
   const auto samples = read();

@@ -57,6 +57,7 @@ TEST_F(DriveClouds, HaveStampsInTheirNames) {
   // Seconds and nanoseconds; a number with fewer digits before the separator is none of seconds.
   EXPECT_DOUBLE_EQ(stamp_in_name("cloud_1583836591_082590976.pcd").value(), 1583836591.082590976);
   EXPECT_DOUBLE_EQ(stamp_in_name("1583836591-182590976.ply.xz").value(), 1583836591.182590976);
+  EXPECT_DOUBLE_EQ(stamp_in_name("1418381798123456.bin").value(), 1418381798.123456);
   EXPECT_EQ(stamp_in_name("drive_7_182590976.pcd"), 182590976.0);
   for (const char* name : {"cloud.pcd", "1.2.3.pcd", ".pcd"}) EXPECT_FALSE(stamp_in_name(name)) << name;
 }

@@ -10,6 +10,7 @@
 
 #include "files.hpp"
 #include "sources/bags/message_writer.hpp"
+#include "sources/bags/recordings.hpp"
 #include "sources/live/fake_link.hpp"
 #include "sources/live/live_recorder.hpp"
 #include "sources/live/recording_link.hpp"
@@ -58,6 +59,21 @@ TEST_F(Links, GiveTheTopicsThatAreAskedForInOrder) {
   EXPECT_FALSE(link.is_live());
   EXPECT_THAT(all_of(link), ElementsAre("/tf", "/tf"));
   EXPECT_TRUE(link.has_ended());
+}
+
+TEST_F(Links, MessagesOfRos1AreToldAsRos2NamesThem) {
+  const std::string transforms = bags::Writer("ros1").number<std::uint32_t>(0).bytes();
+  folder_.write("old.bag",
+                bags::ros1_magic + bags::ros1_bag_header() + bags::ros1_connection(0, "/tf", "tf/tfMessage") +
+                    bags::ros1_message(0, 1, transforms) + bags::ros1_message(0, 2, transforms.substr(0, 2)) +
+                    bags::ros1_message(0, 3, transforms));
+  std::vector<std::string> warnings;
+  RecordingLink link({file_path((folder_.path() / "old.bag").string())},
+                     {.warn = [&](const std::string& text) { warnings.push_back(text); }});
+  EXPECT_THAT(link.topics(), ElementsAre(tf));
+  link.subscribe(tf, Delivery::reliable);
+  EXPECT_THAT(all_of(link), ElementsAre("/tf", "/tf")) << "a damaged message does not end the drive";
+  EXPECT_THAT(warnings, ElementsAre(HasSubstr("a message of /tf is left out")));
 }
 
 TEST_F(Links, InRealTimeMessagesComeWhenTheyCameToTheRecorder) {

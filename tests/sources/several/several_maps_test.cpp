@@ -72,6 +72,12 @@ class Seeded final : public MapSource {
 };
 void describe(ParamVisitor& /*v*/, Seeded::Params& /*p*/) {}
 
+TEST(SeveralMaps, MayHaveSidesInSinglePrecision) {
+  MapData sent = small_map({});
+  sent.grid.resolution = static_cast<double>(0.5F + 5e-8F);
+  EXPECT_EQ(joined({small_map({}), sent}).parts.size(), 2U);
+}
+
 TEST(SeveralMaps, DrawRandomNumbersOfTheirOwn) {
   Registry<MapSource, SourceSetup> sources{"map_source"};
   sources.add<Seeded>("seeded", "Tells its seed.");
