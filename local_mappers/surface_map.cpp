@@ -43,7 +43,9 @@ void describe(ParamVisitor& v, SurfaceMapParams& p) {
 
 SurfaceMap::SurfaceMap(const SurfaceMapParams& params)
     : params_(params),
-      cells_in_block_(static_cast<std::int32_t>(std::ceil(params.normal_radius / params.resolution - 1e-9))),
+      // Of smaller blocks a hit without a partner near by would look into too many.
+      cells_in_block_(static_cast<std::int32_t>(
+          std::ceil(std::max(params.normal_radius, 0.5) / params.resolution - 1e-9))),
       block_side_(static_cast<float>(cells_in_block_ * params.resolution)) {}
 
 SurfaceMap::Cell SurfaceMap::cell_of(const Point& p) const {

@@ -35,7 +35,7 @@ Verdict ConsecutiveRating::judge(const StepResult& step) {
   const Pose3& pose = step.clusters.front().map_from_robot;
   const double rating = step.ratings.front().r_normalised;
   if (rating > params_.min_rating) {
-    // A scan without a point leaves the local map as it was, which would be rated the same for ever.
+    // A scan with hardly a point leaves the local map as it was, which would be rated the same for ever.
     const int earlier = last_ && last_->pose.may_be(pose, step) ? last_->count : 0;
     const int count = step.saw_nothing ? earlier : earlier + 1;
     last_ = Leader{FollowedPose::of(step, pose), count};

@@ -206,7 +206,9 @@ void StagedMargin::begin_stages_anew() {
 Verdict StagedMargin::judge(const StepResult& step) {
   const double turn_rate_deg = last_step_ ? degrees(last_step_->turn_rate_to(step)) : 0.0;
   const bool is_steady_now = is_steady(turn_rate_deg);
-  last_step_ = FollowedPose::of(step, {});
+  const bool no_time_has_passed =
+      last_step_ && last_step_->epoch == step.local_map_epoch && last_step_->stamp == step.stamp;
+  if (!no_time_has_passed) last_step_ = FollowedPose::of(step, {});
   if (step.hypotheses.empty()) {
     begin_anew();
     best_.reset();
@@ -222,7 +224,7 @@ Verdict StagedMargin::judge(const StepResult& step) {
   if (!scan_fits) begin_stages_anew();
   best_ = FollowedPose::of(step, pose);
   const double margin = margin_of(step);
-  // A scan without a point leaves the local map as it was: the same answer again says nothing new.
+  // A scan with hardly a point leaves the local map as it was: the same answer again says nothing new.
   const bool is_look = !step.saw_nothing;
   if (is_look) count(step, margin, driven, contact);
   const bool is_clear = scan_fits && stages_.is_reached(margin, driven, is_look);

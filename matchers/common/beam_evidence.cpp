@@ -39,6 +39,7 @@ void describe(ParamVisitor& v, BeamRule& p) {
 void BeamEvidence::add(const LocalMap& local, const Scan& scan) {
   if (local.epoch != epoch_) clear();
   epoch_ = local.epoch;
+  if (scan.hits.empty() && scan.free_ends.empty()) return;
   const Pose2 robot = seen_from_above(local.local_from_robot);
   const Transform local_from_robot(robot);
   Beams beams{robot, local_from_robot(scan.origin), {}};

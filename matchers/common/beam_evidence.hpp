@@ -48,8 +48,8 @@ class BeamEvidence {
 
   /// What scans of different places say for a pose: the share of a scan's beams that end at the map, less
   /// twice that of beams through occupied cells, summed over scans. A beam that ends before the map does has
-  /// met something new, and says nothing. Scans of a robot that stands still say the same again, and count
-  /// once.
+  /// met something new, and says nothing. Scans of a robot that stands still say the same again: but for
+  /// the first place, where the first scan and the latest one count, only the latest one does.
   [[nodiscard]] double support(const ContactIndex& contact, const ClearanceGrid& grid,
                                const Pose2& map_from_local) const;
 

@@ -175,6 +175,24 @@ FoundPose settled(const RigidMotion& motion, const SurfelSample& sample, int ste
   return judged(best, scene, params);
 }
 
+/// By falling score; of poses that are the same the best one stays, and counts for all.
+void keep_distinct(std::vector<FoundPose>& found, const SearchScene& scene) {
+  std::ranges::stable_sort(found, std::greater<>(), &FoundPose::score);
+  std::vector<FoundPose> distinct;
+  for (const FoundPose& pose : found) {
+    const auto same = std::ranges::find_if(distinct, [&](const FoundPose& other) {
+      return is_same(other.target_from_source, pose.target_from_source, scene);
+    });
+    if (same == distinct.end()) {
+      distinct.push_back(pose);
+    } else {
+      same->rounds = std::max(same->rounds, pose.rounds);
+      same->last_round = std::max(same->last_round, pose.last_round);
+    }
+  }
+  found = std::move(distinct);
+}
+
 /// Refines the best few once more, by a larger sample and to the end.
 void polish(std::vector<FoundPose>& found, SearchScene& scene, const PoseSearchParams& params, Rng rng) {
   constexpr std::size_t few = 3;
@@ -188,11 +206,12 @@ void polish(std::vector<FoundPose>& found, SearchScene& scene, const PoseSearchP
     if (pose.score + slack >= found[i].score && is_allowed(pose.target_from_source, params.gate))
       found[i] = pose;
   }
-  std::ranges::stable_sort(found, std::greater<>(), &FoundPose::score);
+  keep_distinct(found, scene);
 }
 
 /// Adds a pose, or counts it for the one it is the same as, whose place it takes if it is better.
-void add(std::vector<FoundPose>& found, const FoundPose& pose, std::size_t round, const SearchScene& scene) {
+void add(std::vector<FoundPose>& found, FoundPose pose, std::size_t round, const SearchScene& scene) {
+  pose.last_round = round;
   const auto same = std::find_if(found.begin(), found.end(), [&](const FoundPose& other) {
     return is_same(other.target_from_source, pose.target_from_source, scene);
   });
@@ -200,9 +219,13 @@ void add(std::vector<FoundPose>& found, const FoundPose& pose, std::size_t round
     found.push_back(pose);
     return;
   }
-  const std::size_t rounds = std::min(same->rounds + 1, round + 1);
-  if (pose.score > same->score) *same = pose;
-  same->rounds = rounds;
+  pose.rounds = same->rounds + (same->last_round == round ? 0 : 1);
+  if (pose.score > same->score) {
+    *same = pose;
+  } else {
+    same->rounds = pose.rounds;
+    same->last_round = round;
+  }
 }
 
 /// The best pose was found again and again, and no other comes near: the more often, the nearer it may come.
@@ -243,7 +266,7 @@ PoseSearch::PoseSearch(const PreparedCloud& target, const PairTable& target_pair
   scene_.source_sample = sample_of(source.surfels, whole_sample, rng_);
   if (target.view) scene_.target_sample = sample_of(target.surfels, third_look, rng_);
   for (const RigidMotion& motion : known) settle(motion);
-  std::ranges::stable_sort(found_, std::greater<>(), &FoundPose::score);
+  keep_distinct(found_, scene_);
   if (known.empty()) return;
   ++round_;
   ++rounds_end_;
@@ -273,7 +296,7 @@ void PoseSearch::search_round() {
       distinct.push_back(proposal.motion);
   }
   for (const RigidMotion& motion : distinct) settle(motion);
-  std::ranges::stable_sort(found_, std::greater<>(), &FoundPose::score);
+  keep_distinct(found_, scene_);
   ++round_;
 }
 

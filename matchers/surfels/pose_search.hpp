@@ -41,6 +41,7 @@ struct FoundPose {
   double in_free_space = 0.0;  ///< Share of points, where the search is told their evidence.
   double score = 0.0;          ///< Contact less the weighted shares.
   std::size_t rounds = 1;      ///< In how many rounds it was found.
+  std::size_t last_round = 0;  ///< In which it was found last.
 };
 
 /// What a search has cost.

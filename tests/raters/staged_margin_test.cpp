@@ -153,6 +153,20 @@ TEST(StagedMargin, ARobotThatTurnsFastIsNotDeclaredUntilSomeStepsLater) {
               ElementsAre(searching, searching, searching, searching, searching, searching, localized));
 }
 
+TEST(StagedMargin, AFastTurnIsSeenWhereStampsAreWholeSeconds) {
+  StagedMargin rule({}, {});
+  // 80 degrees a second, ten steps in each.
+  for (int i = 0; i < 30; ++i) {
+    StepResult turning = step(0.9, 0.3);
+    const Pose2 turned{0.0, 0.0, radians(8.0 * i)};
+    turning.stamp = i / 10;
+    turning.local_from_robot = turned;
+    for (Hypothesis& h : turning.hypotheses) h.map_from_robot = h.map_from_robot * Pose3(turned);
+    const VerdictKind kind = rule.judge(turning).kind;
+    if (i > 8) EXPECT_NE(kind, localized) << i;
+  }
+}
+
 TEST(StagedMargin, ATurnIsSeenInAStepWithoutHypothesesToo) {
   StagedMargin rule({}, {});
   std::vector<StepResult> steps;

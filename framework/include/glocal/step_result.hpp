@@ -159,7 +159,8 @@ struct StepResult {
   /// in the plane, and none without such a point.
   std::optional<double> omega_scan;
   std::vector<HitKind> hit_kinds;  ///< Of these points, in beam order; empty in space.
-  bool saw_nothing = false;        ///< The latest scan has no point: what fits does so by older ones alone.
+  /// The latest scan has hardly a point (fewer than 5, in space 30): what fits does so by older ones alone.
+  bool saw_nothing = false;
   std::size_t proposals = 0;       ///< Relations found on both sides: poses before any of them was judged.
   std::size_t points_tested = 0;   ///< Single points tested for contact.
 

@@ -21,6 +21,11 @@ namespace {
 /// Names of the random streams within a step.
 enum Stage : std::uint64_t { matching, clustering };
 
+/// Fewer tell no pose: three numbers in the plane; in space it takes several to tell a surface.
+std::size_t least_hits(Motion motion) {
+  return motion == Motion::planar ? 5 : 30;
+}
+
 /// Clusters and their ratings, best first; equal ones keep their order.
 void sort_by_rating(std::vector<Cluster>& clusters, std::vector<Rating>& ratings) {
   std::vector<std::size_t> order(clusters.size());
@@ -202,7 +207,7 @@ StepResult Localizer::step(const Observation& observation) {
   result.step = step_++;
   result.stamp = observation.stamp;
   result.motion = motion_;
-  result.saw_nothing = observation.scan.hits.empty();
+  result.saw_nothing = observation.scan.hits.size() < least_hits(motion_);
   const LocalMap& local = add(observation, result);
   follow_noise(observation.scan, result);
   match(local, observation, result);

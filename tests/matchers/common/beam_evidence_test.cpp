@@ -75,6 +75,14 @@ TEST(BeamEvidence, OnlyTheLatestScansOfThisLocalMapCount) {
   EXPECT_EQ(evidence.blocked_share(grid, pose), 0.0);
 }
 
+TEST(BeamEvidence, AScanWithoutABeamLeavesWhatOthersSaid) {
+  BeamEvidence evidence({.scans = 2});
+  const LocalMap local;
+  evidence.add(local, beams_along_x({1.8F}));
+  for (int i = 0; i < 3; ++i) evidence.add(local, {});
+  EXPECT_EQ(evidence.blocked_share(grid_with_a_wall(), {1.0, 1.0, 0.0}), 1.0);
+}
+
 TEST(BeamEvidence, ManyBeamsAreThinnedEvenly) {
   std::vector<float> ranges(1000, 0.5F);
   std::fill(ranges.begin(), ranges.begin() + 500, 1.8F);

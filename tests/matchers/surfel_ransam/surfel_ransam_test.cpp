@@ -129,6 +129,18 @@ TEST(SurfelRansam, FindsASensorThatIsHeldAnyWayUnlessItMaySlide) {
   EXPECT_GE(right, 8);
 }
 
+TEST(SurfelRansam, ASingleHitFarAwayDoesNoHarm) {
+  const Pose3 truth({3.0, 2.0, 1.0}, turn_about_z(0.5));
+  Seen seen(truth);
+  for (Points* points : {&seen.local.points, &seen.latest.scan.hits})
+    points->push_back({2500.0F, 2500.0F, 400.0F});
+  seen.local.ends = {seen.local.points.size()};
+  Rng draws(1);
+  const auto found = matcher(Motion::upright).match({seen.local, seen.latest, 0.1}, draws).hypotheses;
+  ASSERT_FALSE(found.empty());
+  EXPECT_TRUE(is_near(found[0].map_from_local, truth));
+}
+
 TEST(SurfelRansam, UprightPosesTurnAboutZAlone) {
   Rng rng(2);
   int right = 0;

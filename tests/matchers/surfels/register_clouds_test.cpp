@@ -26,6 +26,15 @@ TEST(RegisterClouds, FindsThePoseWhateverTheCloudIsTurnedBy) {
   }
 }
 
+// The pose itself, found once more, is no other pose.
+TEST(RegisterClouds, TheNextBestPoseIsAnotherOne) {
+  const Points source = scan_of(hall(), there), target = scan_of(hall(), here);
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U, 6U}) {
+    const Registration result = register_clouds(source, target, {.seed = seed});
+    EXPECT_GT(result.lead, 0.2) << seed;
+  }
+}
+
 TEST(RegisterClouds, TheSameSeedGivesTheSameBits) {
   const Points source = scan_of(hall(), there);
   const Points target = scan_of(hall(), here);
