@@ -28,7 +28,7 @@ namespace {
 struct ExplainOptions {
   std::string folder;
   std::size_t trial = 0;
-  std::optional<std::size_t> step;  ///< The trial's last one without it.
+  std::optional<std::size_t> step;  ///< Without it that of the declaration, or the last one.
   bool trust_plugins = false;
 };
 
@@ -364,7 +364,8 @@ void add_explain(CLI::App& app, Context& context) {
   CLI::App* command = app.add_subcommand("explain", "Say at which stage of a step the true pose was lost.");
   command->add_option("DIR", options->folder, "Folder of results, as glocal run leaves it")->required();
   command->add_option("--trial", options->trial, "Number of the trial, from 0")->required();
-  command->add_option("--step", options->step, "Number of the step, from 0 (default: the last one)");
+  command->add_option("--step", options->step,
+                      "Number of the step, from 0 (default: that of the declaration, or the last one)");
   command->add_flag("--trust-plugins", options->trust_plugins,
                     "Load the plugins that the folder names: they are native code");
   command->callback([options, &context] { explain(*options, context); });

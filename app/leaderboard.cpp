@@ -134,22 +134,35 @@ std::string renewal(const BoardOptions& options, const BoardEntry& entry) {
                      entry.suite, entry.method, entry.command(), board);
 }
 
-/// Writes an entry and its line of the history.
-void store(const BoardOptions& options, const BoardEntry& entry) {
+void require_place(const BoardOptions& options, const BoardEntry& entry) {
   if (!is_folder_name(entry.method))
     throw ConfigError(options.results,
                       fmt::format("'{}' is no name of a method: it is that of a file; give another "
                                   "one with --method",
                                   entry.method));
   const fs::path file = entry_file(options.folder(), entry.suite, entry.method);
+  if (fs::exists(file) && !options.force)
+    throw ConfigError(file, "is there already; --force replaces it, and compares both");
+}
+
+/// How an entry differs from that which it replaces.
+std::string difference_text(const fs::path& before, const BoardEntry& entry) {
+  try {
+    return paired_text(read_entry(before), entry);
+  } catch (const ConfigError& error) {
+    return fmt::format("{}; it is replaced\n", error.what());
+  }
+}
+
+/// Writes an entry and its line of the history.
+void store(const BoardOptions& options, const BoardEntry& entry) {
+  const fs::path file = entry_file(options.folder(), entry.suite, entry.method);
   const fs::path history = options.history();
   make_folders_above(history);
   // Several may add to one board at once.
-  const FileLock lock(history.string() + ".lock", history);
-  if (fs::exists(file)) {
-    if (!options.force) throw ConfigError(file, "is there already; --force replaces it, and compares both");
-    answer("{}", paired_text(read_entry(file), entry));
-  }
+  const FileLock lock(history.string() + ".lock", history, FileLock::IfTaken::wait);
+  require_place(options, entry);
+  if (fs::exists(file)) answer("{}", difference_text(file, entry));
   const Renewal now = renewal_of(entry);
   const BoardCounts& counts = now.counts;
   AtomicFiles files(true);
@@ -212,6 +225,7 @@ void add(const BoardOptions& options, Context& context) {
     require_values_of_method(options, suite, entry, context);
     entry.provenance["suite_sha256"] = sha256_of_file(suite.file);
     if (!options.revision.empty()) entry.provenance["revision"] = options.revision;
+    require_place(options, entry);
   }
   for (const BoardEntry& entry : entries) store(options, entry);
 }
@@ -223,7 +237,8 @@ struct Check {
   std::vector<std::string> different = {};
 };
 
-void check_suite(const BoardOptions& options, const Suite& suite, Context& context) {
+/// How many entries it checks.
+std::size_t check_suite(const BoardOptions& options, const Suite& suite, Context& context) {
   std::vector<Check> checks;
   std::vector<std::string> methods;
   for (BoardEntry& entry : entries_of(options, suite)) {
@@ -231,7 +246,10 @@ void check_suite(const BoardOptions& options, const Suite& suite, Context& conte
     methods.push_back(entry.method);
     checks.push_back({std::move(entry)});
   }
-  if (methods.empty()) return answer("{}: no results of such a method are stored\n", suite.id());
+  if (methods.empty()) {
+    answer("{}: no results of such a method are stored\n", suite.id());
+    return 0;
+  }
   std::vector<Variant> variants = variants_of(options, suite, methods, options.share, context);
   ExperimentLoader loader(context.catalog, warn);
   for_each_loaded(variants, loader, [&](std::size_t i, LoadedExperiment& loaded) {
@@ -259,13 +277,16 @@ void check_suite(const BoardOptions& options, const Suite& suite, Context& conte
              renewal(options, check.stored));
     if (n > 0) context.exit_code = 1;
   }
+  return checks.size();
 }
 
 void check(const BoardOptions& options, Context& context) {
+  std::size_t checked = 0;
   for (const Suite& suite : suites_of(options)) {
     check_case_names(options, suite);
-    check_suite(options, suite, context);
+    checked += check_suite(options, suite, context);
   }
+  if (checked == 0) refuse_empty(options);
 }
 
 void import(const BoardOptions& options, Context& context) {
@@ -347,12 +368,14 @@ void add_leaderboard(CLI::App& app, Context& context) {
   board->add_option("SUITE", options->suite, "Suite, as planar@1 (glocal list suites); all without it");
   add_methods_to(*board, *options);
   add_cases_to(*board, *options);
-  CLI::Option* by_case = board->add_flag("--cases", options->by_case, "A line for each case");
+  CLI::Option* suite = board->get_option("SUITE");
+  board->get_option("--case")->needs(suite);
+  CLI::Option* by_case = board->add_flag("--cases", options->by_case, "A line for each case")->needs(suite);
   CLI::Option* by_kind =
       board
           ->add_flag("--kinds", options->by_kind,
                      "A line for each kind of disturbance: the success that is kept at each level")
-          ->needs(board->get_option("SUITE"))
+          ->needs(suite)
           ->excludes(by_case)
           ->excludes(board->get_option("--case"));
   CLI::Option* markdown = board->add_flag("--markdown", options->markdown, "Print tables as Markdown");

@@ -65,6 +65,7 @@ std::string text_of(const SharedStatus& status, const Manifest& manifest) {
     if (!v.name.empty()) text += row(v, width);
   }
   text += row(total, width);
+  if (total.missing() == 0) return text;
   for (const std::string& journal : status.silent)
     text += fmt::format("{}: its process has gone without a word; what it had not finished is missing\n",
                         journal);

@@ -166,10 +166,12 @@ Report board_tables(const Suite& suite, const std::vector<BoardEntry>& entries, 
   }
   Report report{std::move(starts)};
   if (drives.rows.empty()) return report;
-  for (const PublishedFigures& p : suite.published)
+  for (const PublishedFigures& p : suite.published) {
+    if (!is_wanted(table, p.case_name)) continue;
     drives.rows.push_back({fmt::format("{}, as published", p.case_name), "–", "–",
                            fmt::format("{:.2f} cm, {:.2f}°", p.translation_cm, p.rotation_deg), "–", p.about,
                            "–"});
+  }
   report.emplace_back(std::move(drives));
   return report;
 }

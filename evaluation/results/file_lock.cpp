@@ -22,11 +22,13 @@ bool is_current(int fd, const std::filesystem::path& file) {
 
 }  // namespace
 
-FileLock::FileLock(std::filesystem::path file, const std::filesystem::path& shown) : file_(std::move(file)) {
+FileLock::FileLock(std::filesystem::path file, const std::filesystem::path& shown, IfTaken if_taken)
+    : file_(std::move(file)) {
   while (true) {
     Descriptor lock(file_, O_RDWR | O_CREAT);
     if (lock.get() < 0) check_written(last_error(), shown);
-    if (::flock(lock.get(), LOCK_EX | LOCK_NB) != 0) {
+    if (::flock(lock.get(), if_taken == IfTaken::wait ? LOCK_EX : LOCK_EX | LOCK_NB) != 0) {
+      if (errno == EINTR) continue;
       if (errno != EWOULDBLOCK) check_written(last_error(), shown);
       throw ConfigError(shown,
                         "output: another run is writing this folder; wait for its end, or choose another "

@@ -11,8 +11,11 @@ namespace glocal {
 /// ends, however it ends.
 class FileLock {
  public:
-  /// Throws ConfigError naming `shown` if another process has the lock, RunError if there can be none.
-  FileLock(std::filesystem::path file, const std::filesystem::path& shown);
+  enum class IfTaken { refuse, wait };
+  /// If another process has the lock waits for it, or throws ConfigError naming `shown`. Throws RunError if
+  /// there can be none.
+  FileLock(std::filesystem::path file, const std::filesystem::path& shown,
+           IfTaken if_taken = IfTaken::refuse);
   ~FileLock();
   FileLock(const FileLock&) = delete;
   FileLock& operator=(const FileLock&) = delete;

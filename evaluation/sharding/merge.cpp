@@ -67,11 +67,15 @@ class VariantMerge {
 std::optional<Json> VariantMerge::kept() const {
   if (!is_results_folder(folder_)) return std::nullopt;
   const Json there = Json::parse(content_of(folder_ / "provenance.json"), nullptr, false);
-  const auto same = [&](const char* key) {
-    return there.is_object() && there.contains(key) && there.at(key) == first_.at("provenance").at(key);
-  };
-  const bool is_same_run = content_of(folder_ / "effective.yaml") == first_.at("effective") &&
-                           same("program_sha256") && same("inputs_sha256");
+  const std::string effective = content_of(folder_ / "effective.yaml");
+  // Shards may have other numbers of threads, and the file more seeds by now: it is that of any of them.
+  const bool is_same_run = std::ranges::any_of(*places_, [&](const JournalScan::Place& at) {
+    const Json described = parse_json(scan_.text_at(at));
+    const auto same = [&](const char* key) {
+      return there.is_object() && there.contains(key) && there.at(key) == described.at("provenance").at(key);
+    };
+    return effective == described.at("effective") && same("program_sha256") && same("inputs_sha256");
+  });
   if (!is_same_run && !options_.force)
     throw ConfigError(folder_,
                       "output: the folder has results of another run; remove them, or replace them with "

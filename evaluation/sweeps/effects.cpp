@@ -131,6 +131,8 @@ void Tally::add(const std::string& case_name, const std::map<TrialStart, TrialRe
     ++ends.trials;
     ends.right += is_right ? 1 : 0;
     ends.wrong += trial.outcome == Outcome::wrong ? 1 : 0;
+    ends.failed += trial.outcome == Outcome::failed ? 1 : 0;
+    ends.declared += trial.outcome == Outcome::declared ? 1 : 0;
     if (is_right) steps_.push_back(trial.steps);
     if (with_times && trial.step_cpu_ms) step_cpu_ms_.push_back(*trial.step_cpu_ms);
   }
@@ -143,6 +145,8 @@ void Tally::add(const Tally& setting) {
     sum.trials += ends.trials;
     sum.right += ends.right;
     sum.wrong += ends.wrong;
+    sum.failed += ends.failed;
+    sum.declared += ends.declared;
   }
   steps_.insert(steps_.end(), setting.steps_.begin(), setting.steps_.end());
   step_cpu_ms_.insert(step_cpu_ms_.end(), setting.step_cpu_ms_.begin(), setting.step_cpu_ms_.end());
@@ -157,6 +161,8 @@ SettingOutcome Tally::outcome() const {
     outcome.trials += ends.trials;
     outcome.right += ends.right;
     outcome.wrong += ends.wrong;
+    outcome.failed += ends.failed;
+    outcome.declared += ends.declared;
     right.push_back({ends.right, ends.trials});
     wrong.push_back({ends.wrong, ends.trials});
   }

@@ -19,7 +19,8 @@ namespace glocal {
 /// the mean over all in which these differ.
 struct SettingOutcome {
   std::size_t settings = 0;                       ///< Added as such, not trial by trial.
-  std::size_t trials = 0, right = 0, wrong = 0;   ///< All others are undecided.
+  std::size_t trials = 0, right = 0, wrong = 0;   ///< All others count as undecided.
+  std::size_t failed = 0, declared = 0;           ///< Of these: with an exception; without a reference.
   Proportion success{}, false_rate{};             ///< Trials at one place of a drive are not independent.
   std::optional<double> median_steps = {};        ///< To localize; none where no trial was right.
   std::optional<double> median_step_cpu_ms = {};  ///< CPU time of a step; none where it is not to be told.
@@ -38,7 +39,7 @@ class Tally {
 
  private:
   struct Ends {
-    std::size_t trials = 0, right = 0, wrong = 0;
+    std::size_t trials = 0, right = 0, wrong = 0, failed = 0, declared = 0;
   };
   std::size_t settings_ = 0;
   /// By case and sample: trials that start there, with any seed, tend to end alike.

@@ -232,6 +232,18 @@ std::vector<std::string> warnings_of(const SweepAnalysis& a) {
         fmt::format("{} without all cases, seeds or trials, marked with *: listed last, and never "
                     "the best.",
                     counted(static_cast<std::size_t>(missing), "setting")));
+  std::size_t failed = 0, declared = 0;
+  for (const SettingResult& setting : a.settings) {
+    for (const SettingOutcome& outcome : {setting.chosen, setting.judged.value_or(SettingOutcome{})}) {
+      failed += outcome.failed;
+      declared += outcome.declared;
+    }
+  }
+  if (failed > 0)
+    warnings.push_back(fmt::format("{} trials failed with an exception; they count as undecided.", failed));
+  if (declared > 0)
+    warnings.push_back(fmt::format(
+        "{} declarations have no reference to judge them by; they count as undecided.", declared));
   if (a.settings.size() < 2 || !a.settings.front().complete) return warnings;
   if (a.chance) {
     warnings.push_back(chance_warning(a));

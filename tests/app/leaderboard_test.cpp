@@ -159,6 +159,35 @@ TEST_F(Leaderboard, RenewingNeedsForceAndComparesOldAndNew) {
   EXPECT_EQ(lines[1]["starts"], lines[0]["starts"]);
 }
 
+TEST_F(Leaderboard, AnEntryThatCannotBeReadIsReplaced) {
+  pin();
+  run_and_add();
+  folder_.write("leaderboard/tiny@1/few.json", "{");
+  EXPECT_THAT(refusal(run("leaderboard tiny@1")), HasSubstr("glocal leaderboard add writes it anew"));
+  EXPECT_THAT(good(run("leaderboard add --force " + file("results"))).out, HasSubstr("; it is replaced\n"));
+  EXPECT_THAT(run("leaderboard tiny@1").out, HasSubstr("\n  few "));
+}
+
+TEST_F(Leaderboard, AllMethodsOfAFolderAreAddedOrNone) {
+  pin();
+  run_and_add();
+  folder_.write("configs/methods/afew.yaml", content(file("configs/methods/few.yaml")));
+  good(run("run --quiet --suite tiny@1 --method afew --method few --out " + file("both")));
+  EXPECT_THAT(refusal(run("leaderboard add " + file("both"))),
+              HasSubstr("few.json: error: is there already"));
+  EXPECT_FALSE(std::filesystem::exists(file("leaderboard/tiny@1/afew.json")));
+  EXPECT_EQ(json_lines(file("leaderboard/history.jsonl")).size(), 1U);
+}
+
+TEST_F(Leaderboard, ACheckOfNothingIsAnError) {
+  pin();
+  run_and_add();
+  for (const std::string nothing : {"--method indxed", "--board /nowhere"})
+    EXPECT_THAT(refusal(run("leaderboard check " + nothing)), HasSubstr("has no results")) << nothing;
+  for (const char* filter : {"--cases", "--case small_room"})
+    EXPECT_EQ(run(std::string("leaderboard ") + filter).exit_code, 2) << filter;
+}
+
 TEST_F(Leaderboard, WritesAPageOfWhatIsStored) {
   pin();
   run_and_add();

@@ -251,6 +251,14 @@ TEST_F(Shards, FaultsOfTheExperimentLeaveNothing) {
   EXPECT_FALSE(fs::exists(file("shared")));
 }
 
+// Journals are read in the order of their names, whichever was first.
+TEST_F(Shards, MergedAgainWithOtherNumbersOfThreadsTheyAreTheSameRun) {
+  good(run_shard("2/2", "--quiet --threads 2"));
+  EXPECT_EQ(merge().exit_code, 3);
+  good(run_shard("1/2", "--quiet --threads 1"));
+  good(merge());
+}
+
 TEST_F(Shards, ResultsOfAnotherRunAreNotReplaced) {
   good(run_shard("1/1"));
   good(run_room("shared", "--quiet --seed 2"));

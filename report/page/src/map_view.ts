@@ -301,7 +301,7 @@ export class MapView implements Linked {
     const { steps, trial } = this.store;
     const { step, hypothesis } = this.store.selected;
     const missing: string[] = [];
-    if (!this.store.map) missing.push("The results hold no global map (output.maps: none).");
+    if (!this.store.map) missing.push("The results hold no global map (output.maps: none, or the first trial is missing).");
     if (!trial) missing.push("No trial was finished.");
     else if (trial.chunk !== undefined && this.store.fault) missing.push(`${this.store.fault}.`);
     else if (!steps) missing.push("The results hold no steps (output.steps: false).");
