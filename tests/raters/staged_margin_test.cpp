@@ -163,7 +163,9 @@ TEST(StagedMargin, AFastTurnIsSeenWhereStampsAreWholeSeconds) {
     turning.local_from_robot = turned;
     for (Hypothesis& h : turning.hypotheses) h.map_from_robot = h.map_from_robot * Pose3(turned);
     const VerdictKind kind = rule.judge(turning).kind;
-    if (i > 8) EXPECT_NE(kind, localized) << i;
+    if (i > 8) {
+      EXPECT_NE(kind, localized) << i;
+    }
   }
 }
 

@@ -143,7 +143,8 @@ class Localizer {
   const Catalog& catalog_;
   StageSetup stage_setup_;  ///< With the epsilon in use.
   Motion motion_;
-  Vector3 origin_;  ///< The map's; in the plane without a height.
+  Vector3 origin_;                ///< The map's; in the plane without a height.
+  std::optional<float> flat_at_;  ///< In the plane, if all points of the map have one height: that.
   std::unique_ptr<LocalMapper> local_mapper_;
   std::unique_ptr<Clusterer> clusterer_;
   std::unique_ptr<Rater> rater_;

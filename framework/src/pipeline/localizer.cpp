@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "glocal/error.hpp"
+#include "glocal/extent.hpp"
 #include "pipeline/in_stage.hpp"
 #include "pipeline/stage_contracts.hpp"
 
@@ -24,6 +25,27 @@ enum Stage : std::uint64_t { matching, clustering };
 /// Fewer tell no pose: three numbers in the plane; in space it takes several to tell a surface.
 std::size_t least_hits(Motion motion) {
   return motion == Motion::planar ? 5 : 30;
+}
+
+/// The height that all points of a map have, m; none if they differ.
+std::optional<float> height_of(const Points& points) {
+  const Extent z = extent_of(points.z);
+  return z.low == z.high ? std::optional(z.low) : std::nullopt;
+}
+
+/// The observation with its hits at this height; none if they are there already. On a flat map heights say
+/// nothing: contact would miss what a laser sees that is mounted higher than the map.
+std::optional<Observation> flattened(const Observation& observation, float height) {
+  const auto is_there = [&](float z) { return z == height || !std::isfinite(z); };
+  const Scan& scan = observation.scan;
+  if (std::ranges::all_of(scan.hits.z, is_there) && std::ranges::all_of(scan.free_ends.z, is_there))
+    return std::nullopt;
+  Observation flat = observation;
+  for (std::vector<float>* heights : {&flat.scan.hits.z, &flat.scan.free_ends.z})
+    std::ranges::replace_if(
+        *heights, [&](float z) { return !is_there(z); }, height);
+  flat.scan.origin.z = height;
+  return flat;
 }
 
 /// Clusters and their ratings, best first; equal ones keep their order.
@@ -152,7 +174,10 @@ Localizer::Localizer(const LocalizerConfig& config, const Catalog& catalog, Stag
       rng_(seed_.stream({0})) {
   if (const auto why = why_nowhere(config_.prior, *stage_setup_.map))
     throw ConfigError("", "localizer.prior.region: " + *why);
-  if (motion_ == Motion::planar) origin_.z() = 0.0;
+  if (motion_ == Motion::planar) {
+    origin_.z() = 0.0;
+    flat_at_ = height_of(stage_setup_.map->points());
+  }
   if (config.setup_check.enabled && motion_ == Motion::planar) setup_.emplace(config.setup_check);
   stage_setup_.motion = motion_;
   if (config.looks_per_step > 0)
@@ -198,6 +223,9 @@ void Localizer::use(std::unique_ptr<ThresholdPolicy> threshold_policy) {
 }
 
 StepResult Localizer::step(const Observation& observation) {
+  if (flat_at_) {
+    if (const auto flat = flattened(observation, *flat_at_)) return step(*flat);
+  }
   if (auto last = std::exchange(open_, std::nullopt); last && last->is_matching) {
     last->is_matching = false;
     static_cast<void>(judged(local_mapper_->map(), open_observation_, *std::move(last), 0));

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -501,6 +502,41 @@ TEST_F(LocalizerTest, DeclaresNothingWhileTheSetUpIsWrong) {
   EXPECT_THAT(step.verdict.why, testing::HasSubstr("the same scan"));
   localizer.reset(1);
   EXPECT_EQ(localizer.step(observation).verdict.kind, VerdictKind::localized);
+}
+
+/// Keeps what it is given.
+struct KeepingMapper final : LocalMapper {
+  struct Params {
+    std::shared_ptr<Observation> kept;
+  };
+  static constexpr Motions motions = all_motions;
+  explicit KeepingMapper(const Params& params) : kept(params.kept) {}
+  void add(const Observation& observation) override { *kept = observation; }
+  [[nodiscard]] const LocalMap& map() const override { return local; }
+  void reset() override {}
+
+  std::shared_ptr<Observation> kept;
+  LocalMap local;
+};
+void describe(ParamVisitor& /*v*/, KeepingMapper::Params& /*p*/) {}
+
+TEST_F(LocalizerTest, InThePlaneALaserMayBeMountedAboveTheMap) {
+  const auto kept = std::make_shared<Observation>();
+  catalog_.local_mappers.add<KeepingMapper>("keeping", "Keeps what it is given.", {}, {kept});
+  LocalizerConfig config = follow(script_);
+  config.local_mapper = catalog_.local_mappers.choose("keeping");
+  Observation observation;
+  observation.scan.hits.push_back({1.0F, 2.0F, 0.3F});
+  observation.scan.free_ends.push_back({3.0F, 4.0F, 0.3F});
+  observation.scan.origin = {0.1F, 0.0F, 0.3F};
+  const auto after = [&](Motion motion) {
+    config.motion = motion;
+    static_cast<void>(Localizer(config, catalog_, {map_of_one_point(), 1}, 1).step(observation));
+    return std::array{kept->scan.hits[0].z, kept->scan.free_ends[0].z, kept->scan.origin.z};
+  };
+  const float height = map_of_one_point()->points()[0].z;
+  EXPECT_EQ(after(Motion::planar), (std::array{height, height, height}));
+  EXPECT_EQ(after(Motion::free), (std::array{0.3F, 0.3F, 0.3F}));
 }
 
 /// A map of the point (500000, 4649776, 2000).

@@ -30,7 +30,9 @@ TEST(RegisterClouds, FindsThePoseWhateverTheCloudIsTurnedBy) {
 TEST(RegisterClouds, TheNextBestPoseIsAnotherOne) {
   const Points source = scan_of(hall(), there), target = scan_of(hall(), here);
   for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U, 6U}) {
-    const Registration result = register_clouds(source, target, {.seed = seed});
+    RegistrationOptions options;
+    options.seed = seed;
+    const Registration result = register_clouds(source, target, options);
     EXPECT_GT(result.lead, 0.2) << seed;
   }
 }
