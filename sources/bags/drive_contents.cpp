@@ -124,7 +124,7 @@ DriveContents& ContentsReader::settle(bool more_may_come) {
   contents_.reference.settle();
   contents_.mounts.clear();
   choose_frames();
-  contents_.tf_reference = contents_.tree.path(wanted_.reference_frame, contents_.base_frame, true);
+  contents_.tf_reference = contents_.tree.path(wanted_.reference_frame, contents_.base_frame);
   if (!wanted_.reference_frame.empty() && !contents_.tf_reference)
     fail(fmt::format("tf does not connect {} with {}; set {} to a topic or a frame of the tree, which is\n{}",
                      shown(wanted_.reference_frame), shown(contents_.base_frame),

@@ -119,10 +119,10 @@ Cloud CloudBuilder::finish() {
     refuse_cloud(file_, 0,
                  fmt::format("none of its {} points has finite coordinates; give another file", points_));
   if (!cloud_.times.empty()) {
-    const auto [first, last] = std::minmax_element(cloud_.times.begin(), cloud_.times.end());
-    if (const std::string fault = fault_of_scan_times(*first, *last); is_scan_ && !fault.empty())
+    const auto [first, last] = std::ranges::minmax(cloud_.times);
+    if (const std::string fault = fault_of_scan_times(first, last); is_scan_ && !fault.empty())
       refuse_cloud(file_, 0, fault + "; write decimals in seconds, or whole numbers in nanoseconds");
-    for (double& time : cloud_.times) time -= *first;
+    for (double& time : cloud_.times) time -= first;
   }
   return std::move(cloud_);
 }

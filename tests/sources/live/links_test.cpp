@@ -63,10 +63,11 @@ TEST_F(Links, GiveTheTopicsThatAreAskedForInOrder) {
 
 TEST_F(Links, MessagesOfRos1AreToldAsRos2NamesThem) {
   const std::string transforms = bags::Writer("ros1").number<std::uint32_t>(0).bytes();
-  folder_.write("old.bag",
-                bags::ros1_magic + bags::ros1_bag_header() + bags::ros1_connection(0, "/tf", "tf/tfMessage") +
-                    bags::ros1_message(0, 1, transforms) + bags::ros1_message(0, 2, transforms.substr(0, 2)) +
-                    bags::ros1_message(0, 3, transforms));
+  folder_.write("old.bag", bags::ros1_magic + bags::ros1_bag_header() +
+                               bags::ros1_chunk(bags::ros1_connection(0, "/tf", "tf/tfMessage") +
+                                                bags::ros1_message(0, 1, transforms) +
+                                                bags::ros1_message(0, 2, transforms.substr(0, 2)) +
+                                                bags::ros1_message(0, 3, transforms)));
   std::vector<std::string> warnings;
   RecordingLink link({file_path((folder_.path() / "old.bag").string())},
                      {.warn = [&](const std::string& text) { warnings.push_back(text); }});
