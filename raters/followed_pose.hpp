@@ -30,12 +30,12 @@ struct FollowedPose {
            are_same(pose, map_from_robot * (inverse(local_from_robot) * step.local_from_robot));
   }
 
-  /// How fast the robot has turned since, rad/s; at least, where stamps stand still: they do for a second at
-  /// most. 0 where they run backwards, or in another local frame.
+  /// How fast the robot has turned since, rad/s; 0 where no time has passed, or in another local frame.
   [[nodiscard]] double turn_rate_to(const StepResult& step) const {
     const double seconds = step.stamp - stamp;
-    if (seconds < 0.0 || epoch != step.local_map_epoch) return 0.0;
-    return rotation_between(local_from_robot, step.local_from_robot) / (seconds > 0.0 ? seconds : 1.0);
+    return seconds > 0.0 && epoch == step.local_map_epoch
+               ? rotation_between(local_from_robot, step.local_from_robot) / seconds
+               : 0.0;
   }
 };
 

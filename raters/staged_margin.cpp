@@ -204,11 +204,8 @@ void StagedMargin::begin_stages_anew() {
 }
 
 Verdict StagedMargin::judge(const StepResult& step) {
-  const double turn_rate_deg = last_step_ ? degrees(last_step_->turn_rate_to(step)) : 0.0;
-  const bool is_steady_now = is_steady(turn_rate_deg);
-  const bool no_time_has_passed =
-      last_step_ && last_step_->epoch == step.local_map_epoch && last_step_->stamp == step.stamp;
-  if (!no_time_has_passed) last_step_ = FollowedPose::of(step, {});
+  follow_turn(step);
+  const bool is_steady_now = is_steady(turn_rate_deg_);
   if (step.hypotheses.empty()) {
     begin_anew();
     best_.reset();
@@ -248,7 +245,7 @@ Verdict StagedMargin::judge(const StepResult& step) {
   verdict.evidence = {{"margin", margin},
                       {"steps", static_cast<double>(steps_)},
                       {"distance_m", distance_},
-                      {"turn_rate_deg", turn_rate_deg}};
+                      {"turn_rate_deg", turn_rate_deg_}};
   if (violation) verdict.evidence.push_back({"free_space_violation", *violation});
   if (lead) verdict.evidence.push_back({"beam_lead", *lead});
   return verdict;
@@ -267,6 +264,13 @@ void StagedMargin::count(const StepResult& step, double margin, double driven, d
 }
 
 /// Takes in how fast the robot has turned since the last step.
+/// Where stamps stand still the robot is taken to turn on as it did.
+void StagedMargin::follow_turn(const StepResult& step) {
+  if (last_step_ && last_step_->epoch == step.local_map_epoch && last_step_->stamp == step.stamp) return;
+  turn_rate_deg_ = last_step_ ? degrees(last_step_->turn_rate_to(step)) : 0.0;
+  last_step_ = FollowedPose::of(step, {});
+}
+
 bool StagedMargin::is_steady(double turn_rate_deg) {
   if (turn_rate_deg > params_.max_turn_rate_deg) {
     since_turn_ = 0;

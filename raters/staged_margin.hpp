@@ -77,6 +77,7 @@ class StagedMargin final : public VerdictRule {
   void begin_stages_anew();
   void count(const StepResult& step, double margin, double driven, double contact);
   [[nodiscard]] double margin_of(const StepResult& step) const;
+  void follow_turn(const StepResult& step);
   [[nodiscard]] bool is_steady(double turn_rate_deg);
   [[nodiscard]] Verdict localized(const StepResult& step, double margin) const;
   [[nodiscard]] Verdict undecided(const StepResult& step, double margin) const;
@@ -87,15 +88,17 @@ class StagedMargin final : public VerdictRule {
   Stages certified_stages_;  ///< None where nothing is verified.
   bool has_verifier_;
   std::optional<FollowedPose> best_;
-  std::optional<FollowedPose> last_step_;  ///< Where the robot was in it; of no pose in the map.
-  int steps_ = 0;                          ///< In which the best pose has been the same.
-  double mean_margin_ = 0.0;               ///< In the latest of these.
-  int views_ = 0;                          ///< Of these, without those that see the same again.
-  Pose3 last_view_;                        ///< local_from_robot of the last one of them.
-  double distance_ = 0.0;                  ///< m; driven in these.
-  bool is_declared_ = false;               ///< In one of them.
-  double sum_of_contact_ = 0.0;            ///< Of the latest scan at the best pose, in each of them.
-  int views_to_be_sure_;                   ///< Twice as many after each refutation.
+  /// Where the robot was in the first step of the latest stamp; of no pose in the map.
+  std::optional<FollowedPose> last_step_;
+  double turn_rate_deg_ = 0.0;   ///< Until that step, in a second.
+  int steps_ = 0;                ///< In which the best pose has been the same.
+  double mean_margin_ = 0.0;     ///< In the latest of these.
+  int views_ = 0;                ///< Of these, without those that see the same again.
+  Pose3 last_view_;              ///< local_from_robot of the last one of them.
+  double distance_ = 0.0;        ///< m; driven in these.
+  bool is_declared_ = false;     ///< In one of them.
+  double sum_of_contact_ = 0.0;  ///< Of the latest scan at the best pose, in each of them.
+  int views_to_be_sure_;         ///< Twice as many after each refutation.
   /// Steps since the robot last turned fast; none while it has not.
   std::optional<int> since_turn_;
 };
