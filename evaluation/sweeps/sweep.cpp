@@ -33,6 +33,17 @@ SweepRun sweep_run_of(const std::vector<NamedRun>& runs, std::size_t index) {
           .trials = &run.results.trials};
 }
 
+/// A path below the localizer at which two runs have other values, if there is one.
+std::optional<std::string> difference_of_methods(const std::map<std::string, Setting>& a,
+                                                 const std::map<std::string, Setting>& b) {
+  for (const auto& [path, setting] : a) {
+    if (!path.starts_with("localizer.")) continue;
+    const auto other = b.find(path);
+    if (other == b.end() || other->second != setting) return path;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 bool is_sweep(const std::vector<NamedRun>& runs) {
@@ -47,6 +58,7 @@ bool is_sweep(const std::vector<NamedRun>& runs) {
 std::vector<SweepRun> sweep_of(const std::vector<NamedRun>& runs) {
   std::vector<SweepRun> parts;
   std::map<std::tuple<std::string, std::string, std::uint64_t>, std::string> seen;
+  std::map<std::pair<std::string, std::string>, std::size_t> first_of;  // By setting and case.
   FaultCollector faults;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     faults.collect([&] {
@@ -58,6 +70,12 @@ std::vector<SweepRun> sweep_of(const std::vector<NamedRun>& runs) {
         refuse_provenance(
             runs[i],
             fmt::format("is of the same setting, case and seed as {}; leave one of them out", other->second));
+      const NamedRun& first = runs[first_of.try_emplace({part.setting, part.case_name}, i).first->second];
+      if (const auto path = difference_of_methods(first.results.settings, runs[i].results.settings))
+        refuse_provenance(runs[i],
+                          fmt::format("has another {} than {}, and both are of the setting '{}'; leave "
+                                      "one of them out",
+                                      *path, first.name, part.setting));
     });
   }
   faults.report();

@@ -30,10 +30,33 @@ export interface Answer extends Group {
   memory_mb: number | null;
 }
 
-/** Whether all of them are parts of experiments with variants, cases or seeds, and no two are the same one. */
+/**
+ * Whether all of them are parts of experiments with variants, cases or seeds, no two are the same one, and what has
+ * one name has the same localizer with all seeds.
+ */
 function areParts(runs: Run[]): boolean {
   const parts = new Set(runs.map((run) => partKey(run)));
-  return runs.every((run) => run.provenance?.variant) && parts.size === runs.length;
+  const methods = new Map<string, string>();
+  const isSameMethod = (run: Run): boolean => {
+    const { setting, case: its } = run.provenance?.variant ?? {};
+    const key = JSON.stringify([experimentOf(run), setting, its]);
+    const known = methods.get(key) ?? localizerOf(run);
+    methods.set(key, known);
+    return known === localizerOf(run);
+  };
+  return runs.every((run) => run.provenance?.variant) && parts.size === runs.length && runs.every(isSameMethod);
+}
+
+const localizers = new WeakMap<Run, string>();
+
+/** All its values. */
+function localizerOf(run: Run): string {
+  const known = localizers.get(run);
+  if (known !== undefined) return known;
+  const values = Object.entries(run.settings).filter(([path]) => path.startsWith("localizer."));
+  const text = JSON.stringify(values.map(([path, setting]) => [path, setting.text]).sort());
+  localizers.set(run, text);
+  return text;
 }
 
 const experimentOf = (run: Run): string => run.settings.name?.text ?? run.name;

@@ -43,7 +43,9 @@ function saidBy(runs: Run[], tell: (run: Run) => Node | string | null, keyOf: (r
   const groups = new Map<string | undefined, Run[]>();
   for (const run of runs) {
     const key = keyOf(run);
-    groups.set(key, [...(groups.get(key) ?? []), run]);
+    const its = groups.get(key);
+    if (its) its.push(run);
+    else groups.set(key, [run]);
   }
   if (groups.size === 1) return tell(runs[0]) ?? "–";
   const said = [...groups.values()].flatMap((its) => {
@@ -57,14 +59,26 @@ const mostNames = 3;
 /** Settings beyond these are shown when they are asked for. */
 const mostSettings = 40;
 
+const nameable = new WeakMap<Run[], Group[][]>();
+
+/** Ways to divide runs into such as have a name. */
+function groupingsOf(all: Run[]): Group[][] {
+  const known = nameable.get(all);
+  if (known) return known;
+  const byAxis = axesOf(all).map(({ valueOf, values }) => values.map((value) => groupOf(value, all.filter((run) => valueOf(run) === value))));
+  const groupings = [groupsOf(all, "setting"), ...byAxis, groupsOf(all, "run")];
+  nameable.set(all, groupings);
+  return groupings;
+}
+
 /** All runs of a method, a case and so on go by that. */
 function namesOf(some: Run[], all: Run[]): string {
+  const chosen = new Set(some);
   const names = (groups: Group[]): string[] | null => {
-    const whole = groups.filter((group) => group.runs.every((run) => some.includes(run)));
+    const whole = groups.filter((group) => group.runs.every((run) => chosen.has(run)));
     return whole.reduce((n, group) => n + group.runs.length, 0) === some.length ? whole.map(({ name }) => name) : null;
   };
-  const byAxis = axesOf(all).map(({ valueOf, values }) => values.map((value) => groupOf(value, all.filter((run) => valueOf(run) === value))));
-  const [shortest] = [groupsOf(all, "setting"), ...byAxis, groupsOf(all, "run")].flatMap((groups) => {
+  const [shortest] = groupingsOf(all).flatMap((groups) => {
     const told = names(groups);
     return told ? [told] : [];
   }).sort((a, b) => a.length - b.length);

@@ -306,6 +306,13 @@ TEST(Sweep, RefusesWhatIsNoSweep) {
   EXPECT_THAT(fault(runs), HasSubstr("results/b__seed-1/provenance.json: error: does not say which setting"));
   EXPECT_THAT(fault({sweep_run({"a"}, "r"), sweep_run({"a"}, "r")}),
               HasSubstr("is of the same setting, case and seed as a__seed-1"));
+  runs = {sweep_run({"a"}, "r"), sweep_run({.setting = "a", .seed = 2}, "r")};
+  for (NamedRun& run : runs) run.results.settings["localizer.contact_epsilon"] = {"0.1", "0.1"};
+  EXPECT_TRUE(is_sweep(runs));
+  runs[1].results.settings["localizer.contact_epsilon"] = {"0.2", "0.2"};
+  EXPECT_THAT(fault(runs),
+              HasSubstr("has another localizer.contact_epsilon than a__seed-1, and both are of the "
+                        "setting 'a'"));
   runs = {sweep_run({"a"}, "r"), sweep_run({"b"}, "r")};
   runs[1].results.experiment = "other";
   EXPECT_THAT(fault(runs), HasSubstr("is of the experiment other, others are of toy"));
