@@ -22,6 +22,7 @@
 #include "sources/bags/recording_summary.hpp"
 #include "sources/clouds/cloud_file.hpp"
 #include "sources/clouds/cloud_formats.hpp"
+#include "sources/compressed_file.hpp"
 #include "sources/ros_map/ros_map.hpp"
 
 namespace glocal::app {
@@ -50,7 +51,11 @@ struct MapChoice {
 };
 
 bool is_file_of_octree(const fs::path& map) {
-  return !fs::is_directory(map) && clouds::is_octree(bags::FileBytes(map).peek(0));
+  if (fs::is_directory(map)) return false;
+  const fs::path ending = map.extension();
+  const bool is_packed = ending == ".gz" || ending == ".bz2" || ending == ".xz";
+  return clouds::is_octree(is_packed ? read_decompressed(map, default_max_size_gb)
+                                     : bags::FileBytes(map).peek(0));
 }
 
 /// The plugin knows of free voxels, too.
@@ -68,9 +73,9 @@ MapChoice choose_map(const fs::path& map, bool is_strict, const Catalog& catalog
   if (bags::is_recording(map))
     return {fmt::format("bag_map: {{{}{}}}", path, is_strict ? ", strict: true" : ""),
             "a map recorded as a message"};
-  if (is_file_of_octree(map)) return choose_octree(path, catalog);
   if (clouds::has_name_of_cloud(map))
     return {fmt::format("point_cloud: {{{}}}", path), "a cloud of points", true};
+  if (is_file_of_octree(map)) return choose_octree(path, catalog);
   if (map.extension() != ".yaml" && map.extension() != ".yml")
     throw ConfigError(
         map,

@@ -132,12 +132,14 @@ TEST_F(Localize, ARealDriveIsFoundInItsBuildingsPlan) {
 }
 
 TEST_F(Localize, WithoutItsPluginAnOctreeIsACloudOfOccupiedVoxels) {
-  folder_.write("tree.bt", bt_file({{}, {.x = 32800}, {.y = 32800}}, 0.1));
-  const std::string answer = "localize " + file("tree.bt") + " " + file("room/drive.mcap") + " --out ";
-  EXPECT_THAT(run(answer + file("answer")).out,
-              HasSubstr("map         an octree, its occupied voxels only: the plugin octomap, which reads "
-                        "the free ones, is not loaded\n"));
-  EXPECT_THAT(content(file("answer.yaml")), HasSubstr("point_cloud: {path: "));
+  for (const std::string name : {"tree.bt", "tree.bt.gz"}) {
+    folder_.write(name, bt_file({{}, {.x = 32800}, {.y = 32800}}, 0.1));
+    const std::string answer = "localize " + file(name) + " " + file("room/drive.mcap") + " --force --out ";
+    EXPECT_THAT(run(answer + file("answer")).out,
+                HasSubstr("map         an octree, its occupied voxels only: the plugin octomap, which reads "
+                          "the free ones, is not loaded\n"));
+    EXPECT_THAT(content(file("answer.yaml")), HasSubstr("point_cloud: {path: "));
+  }
 }
 
 }  // namespace
