@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -271,26 +272,27 @@ ExplainedRun explained_run(const ExplainOptions& options, Context& context) {
     throw ConfigError(options.folder,
                       fmt::format("holds {} folders of results; name one of them", folders.size()));
   std::size_t last_trial = 0;
-  std::optional<std::size_t> steps;  // Of the trial.
-  std::optional<double> omega_best;
+  std::optional<std::size_t> steps;          // Of the trial.
+  std::map<std::size_t, double> omega_best;  // Of its steps.
   LineReaders lines;
   lines.trial = [&](const nlohmann::ordered_json& trial) {
     last_trial = trial.at("trial").get<std::size_t>();
     if (last_trial == options.trial) steps = trial.at("steps").get<std::size_t>();
   };
   lines.step = [&](const nlohmann::ordered_json& step) {
-    const auto number = step.at("step").get<std::size_t>();
-    if (step.at("trial").get<std::size_t>() == options.trial && number == options.step.value_or(number))
-      omega_best = step.at("omega_best").get<double>();
+    if (step.at("trial").get<std::size_t>() == options.trial)
+      omega_best[step.at("step").get<std::size_t>()] = step.at("omega_best").get<double>();
   };
   static_cast<void>(read_results(folders.front(), lines));
   if (!options.step && !steps)
     throw ConfigError(options.folder,
                       fmt::format("there is no trial {}: the last one is {}", options.trial, last_trial));
   const std::size_t last = steps.value_or(0) > 0 ? *steps - 1 : 0;
+  const auto noted = omega_best.find(options.step.value_or(last));
   return {folders.front(),
           read_stored_experiment(folders.front() / "effective.yaml", options.trust_plugins, context),
-          options.trial, options.step.value_or(last), omega_best};
+          options.trial, options.step.value_or(last),
+          noted == omega_best.end() ? std::nullopt : std::optional(noted->second)};
 }
 
 /// Throws ConfigError if a file is not what the run read: what follows would be of another run.

@@ -87,6 +87,16 @@ TEST_F(ExplainCommand, RefusesResultsThatTheStepsMadeAgainDoNotHave) {
   EXPECT_THAT(explained(1), HasSubstr("step 1, "));
 }
 
+TEST_F(ExplainCommand, OfATrialThatGoesOnItIsTheDeclarationsStep) {
+  good(run("run --method indexed --case paper_lab --quiet --out " + folder()));
+  const std::string results = folder() + "/indexed_paper_lab";
+  const json trial = json::parse(content(results + "/trials.jsonl"));
+  const std::string steps = content(results + "/steps.jsonl");
+  ASSERT_LT(trial["steps"].get<std::ptrdiff_t>(), std::count(steps.begin(), steps.end(), '\n'));
+  EXPECT_THAT(good(run("explain " + results + " --trial 0")).out,
+              HasSubstr(fmt::format("step {}, ", trial["steps"].get<int>() - 1)));
+}
+
 TEST_F(ExplainCommand, NeverDrawn) {
   run_lab("--set localizer.matcher.ransam.iterations=1");
   EXPECT_EQ(recorded(0)["proposals"], 0);
