@@ -175,7 +175,8 @@ void bind_steps(py::module_& module) {
   def_member(bound, "range_noise", &StepResult::range_noise,
              "Standard deviation of the ranges so far, m, or None.");
   def_member(bound, "omega_scan", &StepResult::omega_scan, "Share of the latest scan in contact, or None.");
-  def_member(bound, "saw_nothing", &StepResult::saw_nothing, "Whether the latest scan has hardly a point (fewer than 5, in space 30).");
+  def_member(bound, "saw_nothing", &StepResult::saw_nothing,
+             "Whether the latest scan has hardly a point (fewer than 5, in space 30).");
   def_member(bound, "proposals", &StepResult::proposals, "Poses before any of them was judged.");
   def_member(bound, "points_tested", &StepResult::points_tested, "Single points tested for contact.");
   def_member(bound, "verdict", &StepResult::verdict, "What is said of the robot's place.");

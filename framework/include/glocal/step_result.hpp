@@ -161,8 +161,8 @@ struct StepResult {
   std::vector<HitKind> hit_kinds;  ///< Of these points, in beam order; empty in space.
   /// The latest scan has hardly a point (fewer than 5, in space 30): what fits does so by older ones alone.
   bool saw_nothing = false;
-  std::size_t proposals = 0;       ///< Relations found on both sides: poses before any of them was judged.
-  std::size_t points_tested = 0;   ///< Single points tested for contact.
+  std::size_t proposals = 0;      ///< Relations found on both sides: poses before any of them was judged.
+  std::size_t points_tested = 0;  ///< Single points tested for contact.
 
   std::vector<Hypothesis> hypotheses;  ///< Falling score.
   /// Where the robot is now if it was where it was expected, as long as nothing speaks against it.
