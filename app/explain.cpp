@@ -288,11 +288,11 @@ ExplainedRun explained_run(const ExplainOptions& options, Context& context) {
     throw ConfigError(options.folder,
                       fmt::format("there is no trial {}: the last one is {}", options.trial, last_trial));
   const std::size_t last = steps.value_or(0) > 0 ? *steps - 1 : 0;
-  const auto noted = omega_best.find(options.step.value_or(last));
+  const std::size_t step = options.step.value_or(last);
+  const auto noted = omega_best.find(step);
   return {folders.front(),
           read_stored_experiment(folders.front() / "effective.yaml", options.trust_plugins, context),
-          options.trial, options.step.value_or(last),
-          noted == omega_best.end() ? std::nullopt : std::optional(noted->second)};
+          options.trial, step, noted == omega_best.end() ? std::nullopt : std::optional(noted->second)};
 }
 
 /// Throws ConfigError if a file is not what the run read: what follows would be of another run.

@@ -205,7 +205,7 @@ void StagedMargin::begin_stages_anew() {
 
 Verdict StagedMargin::judge(const StepResult& step) {
   follow_turn(step);
-  const bool is_steady_now = is_steady(turn_rate_deg_);
+  const bool is_steady_now = is_steady();
   if (step.hypotheses.empty()) {
     begin_anew();
     best_.reset();
@@ -263,16 +263,17 @@ void StagedMargin::count(const StepResult& step, double margin, double driven, d
   mean_margin_ += (margin - mean_margin_) / std::min(steps_, steps_of_mean_margin);
 }
 
-/// Takes in how fast the robot has turned since the last step.
-/// Where stamps stand still the robot is taken to turn on as it did.
+/// Takes in how fast the robot has turned since the last step. Where stamps stand still the robot is taken to
+/// turn on as it did.
 void StagedMargin::follow_turn(const StepResult& step) {
   if (last_step_ && last_step_->epoch == step.local_map_epoch && last_step_->stamp == step.stamp) return;
   turn_rate_deg_ = last_step_ ? degrees(last_step_->turn_rate_to(step)) : 0.0;
   last_step_ = FollowedPose::of(step, {});
 }
 
-bool StagedMargin::is_steady(double turn_rate_deg) {
-  if (turn_rate_deg > params_.max_turn_rate_deg) {
+/// Counts steps since the last fast turn.
+bool StagedMargin::is_steady() {
+  if (turn_rate_deg_ > params_.max_turn_rate_deg) {
     since_turn_ = 0;
   } else if (since_turn_) {
     ++*since_turn_;

@@ -78,7 +78,7 @@ class StagedMargin final : public VerdictRule {
   void count(const StepResult& step, double margin, double driven, double contact);
   [[nodiscard]] double margin_of(const StepResult& step) const;
   void follow_turn(const StepResult& step);
-  [[nodiscard]] bool is_steady(double turn_rate_deg);
+  [[nodiscard]] bool is_steady();
   [[nodiscard]] Verdict localized(const StepResult& step, double margin) const;
   [[nodiscard]] Verdict undecided(const StepResult& step, double margin) const;
   [[nodiscard]] std::vector<Pose3> candidates(const StepResult& step) const;

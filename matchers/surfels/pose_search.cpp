@@ -175,14 +175,20 @@ FoundPose settled(const RigidMotion& motion, const SurfelSample& sample, int ste
   return judged(best, scene, params);
 }
 
+/// The one that a pose is the same as, or the end.
+std::vector<FoundPose>::iterator find_same(std::vector<FoundPose>& found, const FoundPose& pose,
+                                           const SearchScene& scene) {
+  return std::ranges::find_if(found, [&](const FoundPose& other) {
+    return is_same(other.target_from_source, pose.target_from_source, scene);
+  });
+}
+
 /// By falling score; of poses that are the same the best one stays, and counts for all.
 void keep_distinct(std::vector<FoundPose>& found, const SearchScene& scene) {
   std::ranges::stable_sort(found, std::greater<>(), &FoundPose::score);
   std::vector<FoundPose> distinct;
   for (const FoundPose& pose : found) {
-    const auto same = std::ranges::find_if(distinct, [&](const FoundPose& other) {
-      return is_same(other.target_from_source, pose.target_from_source, scene);
-    });
+    const auto same = find_same(distinct, pose, scene);
     if (same == distinct.end()) {
       distinct.push_back(pose);
     } else {
@@ -212,20 +218,15 @@ void polish(std::vector<FoundPose>& found, SearchScene& scene, const PoseSearchP
 /// Adds a pose, or counts it for the one it is the same as, whose place it takes if it is better.
 void add(std::vector<FoundPose>& found, FoundPose pose, std::size_t round, const SearchScene& scene) {
   pose.last_round = round;
-  const auto same = std::find_if(found.begin(), found.end(), [&](const FoundPose& other) {
-    return is_same(other.target_from_source, pose.target_from_source, scene);
-  });
+  const auto same = find_same(found, pose, scene);
   if (same == found.end()) {
     found.push_back(pose);
     return;
   }
-  pose.rounds = same->rounds + (same->last_round == round ? 0 : 1);
-  if (pose.score > same->score) {
-    *same = pose;
-  } else {
-    same->rounds = pose.rounds;
-    same->last_round = round;
-  }
+  const std::size_t rounds = same->rounds + (same->last_round == round ? 0 : 1);
+  if (pose.score > same->score) *same = pose;
+  same->rounds = rounds;
+  same->last_round = round;
 }
 
 /// The best pose was found again and again, and no other comes near: the more often, the nearer it may come.
