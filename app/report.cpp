@@ -33,8 +33,8 @@ std::string title_of(const std::vector<NamedRun>& runs) {
 
 fs::path write_report(const ReportOptions& options) {
   ReportData report(options.limits);
-  const ResultsAtHand results(options.folders);
-  const auto runs = read_runs(results.folders(), [&](const fs::path& folder) { return report.add(folder); });
+  const auto runs =
+      ResultsAtHand(options.folders).read([&](const fs::path& folder) { return report.add(folder); });
   fs::path file = fs::absolute(options.out).lexically_normal();
   write_page(file, title_of(runs), report.page_data(runs, find_baseline(runs, options.baseline)),
              options.files);

@@ -29,12 +29,23 @@ ResultsAtHand::ResultsAtHand(const std::vector<std::string>& folders) {
   for (const std::string& folder : folders) {
     const bool is_open = is_shared_folder(folder) && !is_merged(read_manifest(folder), folder);
     folders_.push_back(is_open ? put_together(folder).string() : folder);
+    if (is_open) given_as_.emplace(folders_.back(), folder);
   }
 }
 
 ResultsAtHand::~ResultsAtHand() {
   std::error_code ignored;
   if (!temporary_.empty()) fs::remove_all(temporary_, ignored);
+}
+
+std::vector<NamedRun> ResultsAtHand::read(const std::function<StoredRun(const fs::path&)>& read_one) const {
+  return read_runs(folders_, [&](const fs::path& folder) {
+    StoredRun run = read_one(folder);
+    const bool is_variant = !given_as_.contains(folder);
+    const auto given = given_as_.find(is_variant ? folder.parent_path() : folder);
+    if (given != given_as_.end()) run.folder = is_variant ? given->second / folder.filename() : given->second;
+    return run;
+  });
 }
 
 fs::path ResultsAtHand::put_together(const fs::path& shared) {
@@ -56,9 +67,8 @@ fs::path ResultsAtHand::put_together(const fs::path& shared) {
 }
 
 std::vector<NamedRun> read_sweep(const std::string& folder) {
-  const ResultsAtHand results({folder});
-  return read_runs(results.folders(),
-                   [](const fs::path& run) { return read_results(run, {}, ResultParts::all_but_steps); });
+  return ResultsAtHand({folder}).read(
+      [](const fs::path& run) { return read_results(run, {}, ResultParts::all_but_steps); });
 }
 
 }  // namespace glocal::app

@@ -2,7 +2,8 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
+#include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -10,8 +11,8 @@
 
 namespace glocal::app {
 
-/// Folders as they were given. In the place of one that shards have not filled yet stands a temporary one,
-/// into which what they have done so far is put together; it is gone with this object.
+/// Folders of results. What shards have done so far of one that they have not filled yet is put together in a
+/// temporary folder, which is gone with this object.
 class ResultsAtHand {
  public:
   /// Throws as merge_shards() does.
@@ -20,13 +21,16 @@ class ResultsAtHand {
   ResultsAtHand(const ResultsAtHand&) = delete;
   ResultsAtHand& operator=(const ResultsAtHand&) = delete;
 
-  [[nodiscard]] const std::vector<std::string>& folders() const { return folders_; }
+  /// As read_runs() does. The folders that runs tell are those that were given.
+  [[nodiscard]] std::vector<NamedRun> read(
+      const std::function<StoredRun(const std::filesystem::path&)>& read_one) const;
 
  private:
   [[nodiscard]] std::filesystem::path put_together(const std::filesystem::path& shared);
 
-  std::vector<std::string> folders_;
-  std::filesystem::path temporary_;  ///< Empty if there is none.
+  std::vector<std::string> folders_;                                 ///< To read.
+  std::map<std::filesystem::path, std::filesystem::path> given_as_;  ///< Of those that are temporary.
+  std::filesystem::path temporary_;                                  ///< Empty if there is none.
 };
 
 /// The runs of an experiment that were left in one folder, but for their steps, which are most of them.

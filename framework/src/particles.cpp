@@ -23,6 +23,9 @@ std::vector<Sums<Pose2>> cell_sums(const Particles& particles, const PoseBinning
   std::stable_sort(sums.begin(), sums.end(),
                    [](const Sums<Pose2>& a, const Sums<Pose2>& b) { return a.weight() > b.weight(); });
   sums.resize(std::min(sums.size(), most));
+  // Sums of less underflow, and have no mean.
+  constexpr double least_weight = 1e-290;
+  while (!sums.empty() && !(sums.back().weight() >= least_weight)) sums.pop_back();
   return sums;
 }
 

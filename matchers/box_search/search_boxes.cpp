@@ -49,6 +49,9 @@ class State {
         best_(rule.most_places, rule.least),
         rotations_(boxes_->rotations(pyramid.top_level())) {
     result_.at_most = rule.least - 1;
+    // All of them are kept, with some 130 bytes each.
+    constexpr std::size_t most_intervals = 4'000'000;
+    if (rotations_ > most_intervals) end(false);
   }
   State(const State&) = delete;  // The problem refers to what is here.
   State& operator=(const State&) = delete;

@@ -8,19 +8,22 @@
 
 namespace glocal {
 
-/// Numbers of points in squares as wide as the farthest distance asked for, so that all that are nearer lie
-/// in nine of them.
+/// Numbers of points in squares at least as wide as the farthest distance asked for, so that all that are
+/// nearer lie in nine of them.
 class Squares {
  public:
   /// x and y (m) have the same length.
-  Squares(const std::vector<float>& x, const std::vector<float>& y, double side) : side_(side) {
+  Squares(const std::vector<float>& x, const std::vector<float>& y, double side) {
     if (x.empty()) return;
     const auto [min_x, max_x] = std::minmax_element(x.begin(), x.end());
     const auto [min_y, max_y] = std::minmax_element(y.begin(), y.end());
     min_x_ = *min_x;
     min_y_ = *min_y;
-    columns_ = static_cast<int>((*max_x - *min_x) / side) + 1;
-    rows_ = static_cast<int>((*max_y - *min_y) / side) + 1;
+    // Empty squares take memory, too: of points that are far from each other these are wider.
+    constexpr float most_in_a_row = 2048.0F;
+    side_ = std::max<double>(side, std::max(*max_x - *min_x, *max_y - *min_y) / most_in_a_row);
+    columns_ = static_cast<int>((*max_x - *min_x) / side_) + 1;
+    rows_ = static_cast<int>((*max_y - *min_y) / side_) + 1;
     members_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
     for (std::size_t i = 0; i < x.size(); ++i) {
       members_[index(column(x[i]), row(y[i]))].push_back(static_cast<std::uint32_t>(i));
@@ -75,7 +78,7 @@ class Squares {
     return static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(c);
   }
 
-  double side_;
+  double side_ = 1.0;
   float min_x_ = 0.0F, min_y_ = 0.0F;
   int columns_ = 0, rows_ = 0;
   std::vector<std::vector<std::uint32_t>> members_;

@@ -309,6 +309,11 @@ TEST_F(Shards, AReportShowsWhatIsThereSoFar) {
   const Answer sweep = good(run("sweep " + file("shared")));
   EXPECT_THAT(sweep.out, HasSubstr("2 runs without all trials"));
   EXPECT_FALSE(fs::exists(file("shared/iterations-10000"))) << "the folder is left as it is";
+  // Runs of one name go by their folders: those that were given, not those that are put together.
+  fs::create_directory(file("copy"));
+  fs::copy(file("shared"), file("copy/shared"), fs::copy_options::recursive);
+  good(run("report " + file("shared") + " " + file("copy/shared") + " -o " + file("both.html")));
+  EXPECT_THAT(content(file("both.html")), HasSubstr(file("copy/shared/iterations-10000")));
   good(run_shard("2/2"));
   good(merge());
   EXPECT_EQ(run("report " + file("shared") + " -o " + file("all.html")).err, "");

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace glocal::particles_test {
 namespace {
 
@@ -31,6 +33,14 @@ TEST(Particles, TheHeaviestSumsAreLeft) {
   ASSERT_EQ(sums.size(), 2U);
   EXPECT_NEAR(sums[0].mean().x, 2.05, 1e-12);
   EXPECT_NEAR(sums[1].mean().x, 3.05, 1e-12);
+}
+
+TEST(Particles, WhatWeighsNothingIsNowhere) {
+  const std::vector<Pose2> particles = {{1.05, 0.05, 0.02}, {3.75, 0.05, 0.02}, {5.05, 0.05, 0.02}};
+  const auto sums = cell_sums({particles, {1.0, std::exp(-744.0), 0.0}}, binning, 10);
+  ASSERT_EQ(sums.size(), 1U) << "those of 1e-323 and of 0 have no mean";
+  EXPECT_NEAR(sums[0].mean().x, 1.05, 1e-12);
+  EXPECT_TRUE(cell_sums({particles, {0.0, 0.0, 0.0}}, binning, 10).empty());
 }
 
 /// A scan of three points of which two are in contact, and a local map of four, of which one is.

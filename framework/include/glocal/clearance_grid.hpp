@@ -23,13 +23,16 @@ class ClearanceGrid {
   static constexpr int block_side = 1 << block_shift;
   /// The least number of a block, then the two bits of each of its cells, row by row.
   static constexpr std::size_t block_bytes = 5;
+  /// From twice as many on, a float has no half cells.
+  static constexpr float farthest = 4'194'304.0F;
 
   /// The same for any number of threads.
   explicit ClearanceGrid(const OccupancyGrid& grid, int threads = 1);
 
   /// The first occupied cell on the way between two points (m, in the map's frame), but for the last `margin`
   /// (m) of it: how far that is from the first point (m), none if there is no such cell. It is looked at
-  /// every half cell. What lies beyond the grid is not occupied: a map without a grid blocks nothing.
+  /// every half cell. What lies beyond the grid is not occupied: a map without a grid blocks nothing. Nor
+  /// does what is farther than `farthest` cells.
   [[nodiscard]] std::optional<double> first_occupied(const Point& from, const Point& to, double margin) const;
 
   /// Whether there is one.

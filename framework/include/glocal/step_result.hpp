@@ -40,8 +40,10 @@ struct Evidence {
 
 /// What is known of all poses once the whole map was searched.
 struct Certificate {
-  double contact = 0.0;  ///< Of the declared pose: share of points within epsilon of the map, in [0, 1].
-  double at_most = 0.0;  ///< No rival, found or not, has a larger share.
+  /// Of the declared pose: share of points within epsilon of the map, in [0, 1]. In space, and on planar maps
+  /// of more than 25 hectares, as voxels count it: they may err by half their diagonal.
+  double contact = 0.0;
+  double at_most = 0.0;  ///< No rival, found or not, has a larger share: of distances, not of voxels.
   double epsilon = 0.0;  ///< m
   /// m; the search counts for a whole box of poses at once: what it counts is within epsilon + delta of the
   /// map at the middle of the box, and has all that is within epsilon at any pose of it.

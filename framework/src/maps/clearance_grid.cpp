@@ -134,10 +134,20 @@ std::optional<double> ClearanceGrid::first_occupied(const Point& from, const Poi
   const float length = std::sqrt(dx * dx + dy * dy);
   if (blocks_.empty() || !(length > 0.0F)) return std::nullopt;
   const float scale = 1.0F / resolution_;
-  const float end = (length - static_cast<float>(margin)) * scale;
+  const float end = std::min((length - static_cast<float>(margin)) * scale, farthest);
   const float columns = dx / length, rows = dy / length;
+  float t = 0.5F;
+  // A ray from beyond the grid begins a cell or two before the first one that it meets, if it meets any.
+  const auto enter = [&](float beyond, float along) {
+    if (beyond == 0.0F) return true;
+    const float entry = -beyond / along;
+    t = std::max(t, std::floor(entry) - 1.0F);
+    return entry > 0.0F;
+  };
+  if (!enter(outside(a.x * scale, width_), columns) || !enter(outside(a.y * scale, height_), rows))
+    return std::nullopt;
   bool was_inside = false;
-  for (float t = 0.5F; t <= end;) {
+  while (t <= end) {
     const float column = a.x * scale + t * columns;
     const float row = a.y * scale + t * rows;
     const bool inside = column >= 0.0F && row >= 0.0F && column < static_cast<float>(width_) &&

@@ -166,12 +166,6 @@ HWY_INLINE V clearance_at(const ClearanceView& grid, I column, I row) {
       Floats(), hn::Add(hn::And(words(grid.blocks), hn::Set(ints, 255)), hn::And(more, hn::Set(ints, 3))));
 }
 
-/// How far behind the last column (or row) something is, or before the first one, then negative; 0 within.
-float outside(float at, int size) {
-  const auto end = static_cast<float>(size);
-  return at < 0.0F ? at : (at >= end ? at - end : 0.0F);
-}
-
 void find_blocked_in_vectors(const ClearanceView& grid, const Point& from, const Points& ends,
                              const Transform& map_from_ends, const Transform& grid_from_map, float margin,
                              std::span<std::uint8_t> blocked) {
@@ -187,7 +181,8 @@ void find_blocked_in_vectors(const ClearanceView& grid, const Point& from, const
     const V dx = hn::Sub(to.x, hn::Set(d, from.x));
     const V dy = hn::Sub(to.y, hn::Set(d, from.y));
     const V length = hn::Sqrt(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)));
-    const V end = hn::Mul(hn::Sub(length, hn::Set(d, margin)), scale);
+    const V end =
+        hn::Min(hn::Mul(hn::Sub(length, hn::Set(d, margin)), scale), hn::Set(d, ClearanceGrid::farthest));
     const V columns = hn::Div(dx, length);
     const V rows = hn::Div(dy, length);
     V t = hn::Set(d, 0.5F);

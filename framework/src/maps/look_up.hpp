@@ -37,6 +37,12 @@ struct ClearanceView {
   float resolution;
 };
 
+/// How far behind the last column (or row) something is, or before the first one, then negative; 0 within.
+inline float outside(float at, int size) {
+  const auto end = static_cast<float>(size);
+  return at < 0.0F ? at : (at >= end ? at - end : 0.0F);
+}
+
 /// ClearanceGrid::find_blocked(), from a place in the grid's frame.
 void find_blocked(const ClearanceView& clearance, const Point& from, const Points& ends,
                   const Transform& map_from_ends, const Transform& grid_from_map, float margin,

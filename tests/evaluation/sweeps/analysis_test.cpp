@@ -131,7 +131,8 @@ TEST(Sweep, IncompleteSettingsDoNotCountInWhatAParameterDoes) {
   // The second seed is the harder one, and c lacks it.
   std::vector<NamedRun> runs = {run("a", "k", 1, "rr"), run("a", "k", 2, "uu"), run("b", "d", 1, "rr"),
                                 run("b", "d", 2, "ru"), run("c", "d", 1, "rr")};
-  const auto& levels = analyse_sweep(runs).parameters.effects.at(0).levels;
+  const SweepAnalysis analysis = analyse_sweep(runs);
+  const auto& levels = analysis.parameters.effects.at(0).levels;
   EXPECT_DOUBLE_EQ(levels.at(0).outcome.success.value, 0.5);
   EXPECT_DOUBLE_EQ(levels.at(1).outcome.success.value, 0.75);
   // Where all lack something, that is all there is.

@@ -71,6 +71,24 @@ TEST(ClearanceGrid, TheFirstOccupiedCellIsWhereSmallStepsWouldMeetIt) {
   EXPECT_LT(far_off, met / 10);
 }
 
+TEST(ClearanceGrid, RaysFromFarBeyondTheGridMeetItsWallOrNothing) {
+  OccupancyGrid grid{{}, 0.001, 10, 10, PackedCells(100, Cell::free)};
+  for (int row = 0; row < 10; ++row) grid.cells.fill(grid.index(4, row), 1, Cell::occupied);
+  const ClearanceGrid clearance(grid);
+  const Point from{-1.0F, 0.005F, 0.0F};
+  const auto wall = clearance.first_occupied(from, {1.0F, 0.005F, 0.0F}, 0.0);
+  ASSERT_TRUE(wall.has_value());
+  EXPECT_NEAR(*wall, 1.004, 0.001);
+  // 10 km are ten million cells, of which a float knows no halves.
+  EXPECT_FALSE(clearance.first_occupied(from, {-10000.0F, 0.005F, 0.0F}, 0.0).has_value());
+  EXPECT_FALSE(clearance.first_occupied({-9000.0F, 0.0F, 0.0F}, {9000.0F, 0.0F, 0.0F}, 0.0).has_value());
+  std::vector<std::uint8_t> blocked;
+  Points ends;
+  for (const float x : {1.0F, -10000.0F}) ends.push_back({x, 0.005F, 0.0F});
+  clearance.find_blocked(from, ends, Transform(Pose2{}), 0.0, blocked);
+  EXPECT_EQ(blocked, (std::vector<std::uint8_t>{1, 0}));
+}
+
 TEST(ClearanceGrid, ManyBeamsAreBlockedAsEachByItself) {
   Rng rng(10);
   OccupancyGrid grid{{1.0, -2.0, 0.4}, 0.1, 60, 50, PackedCells(3000, Cell::free)};

@@ -82,6 +82,16 @@ TEST(TiltedBoxes, FindARoomThatStandsAslant) {
   EXPECT_GT(rival.tilt(), radians(3.0));
 }
 
+TEST(TiltedBoxes, AreGivenUpWhereALocalMapIsSoWideThatTheirIntervalsDoNotFitIntoMemory) {
+  Points points = seen_in_room();
+  for (const float far : {-1000.0F, 1000.0F}) points.push_back({far, 0.0F, 0.0F});
+  const BoxPyramid pyramid = pyramid_of(room(0.0, 0.0, 0.0, true));
+  EXPECT_GT(boxes_of(points, pyramid).rotations(top_level), 50'000'000U);
+  const BoxSearch search(pyramid, points, local_from_robot, {.least = points.size() / 2}, std::nullopt, 2);
+  EXPECT_TRUE(search.is_over());
+  EXPECT_FALSE(search.result().is_complete);
+}
+
 TEST(TiltedBoxes, NoPoseElsewhereHasMoreContactThanTheSearchSays) {
   const Points map = two_rooms();
   const Points points = seen_in_room();
