@@ -2,8 +2,11 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,13 +28,6 @@ struct CheckOptions {
   std::optional<double> budget_ms;  ///< For the searches of a step.
 };
 
-/// Of each case the place of its first variant.
-std::map<std::string, std::size_t> first_of_cases(const std::vector<Variant>& variants) {
-  std::map<std::string, std::size_t> firsts;
-  for (std::size_t i = 0; i < variants.size(); ++i) firsts.try_emplace(variants[i].case_name, i);
-  return firsts;
-}
-
 std::string told_budget(double ms, const Experiment& experiment, const Catalog& catalog,
                         LoadedExperiment& loaded) {
   const std::optional<int> looks = looks_within(ms, experiment, catalog, loaded);
@@ -42,29 +38,46 @@ std::string told_budget(double ms, const Experiment& experiment, const Catalog& 
                      *looks / unit * unit);
 }
 
+/// Of the variants of a case.
+std::string told_trials(const std::vector<std::size_t>& trials) {
+  if (trials.size() == 1) return fmt::format("{} trials", trials.front());
+  if (std::ranges::count(trials, trials.front()) == std::ssize(trials))
+    return fmt::format("{} trials of each of {} variants", trials.front(), trials.size());
+  const std::size_t all = std::accumulate(trials.begin(), trials.end(), std::size_t{0});
+  return fmt::format("{} trials of {} variants", all, trials.size());
+}
+
+/// What is told of a case, before and behind its trials.
+struct AboutCase {
+  std::string loaded, budget;
+};
+
 void check(const std::string& file, const CheckOptions& options, Context& context) {
   std::vector<Variant> variants = options.experiment.read_variants(file, context);
-  const std::map<std::string, std::size_t> firsts = first_of_cases(variants);
-  const std::size_t shared = variants.size() / firsts.size();
-  std::map<std::size_t, std::string> answers;  // One setting and one seed of each case speak for it.
+  std::map<std::string, AboutCase> answers;  // One setting and one seed of each case speak for it.
   ExperimentLoader loader(context.catalog, warn);
   const auto tell = [&](std::size_t i, LoadedExperiment& loaded, const Localizer& localizer) {
     const Variant& variant = variants[i];
-    std::string& said = answers[firsts.at(variant.case_name)];
-    if (!said.empty()) return;
+    const auto [said, is_new] = answers.try_emplace(variant.case_name);
+    if (!is_new) return;
     std::string what = file;
     if (!variant.case_name.empty()) what += (file.empty() ? "" : ", ") + ("case " + variant.case_name);
     if (const auto why = why_never_declared(variant.experiment, loaded, localizer))
       spdlog::warn("{}: {}", what, *why);
-    said = fmt::format("{}: ok, {} map points, {} observations, {} trials{}{}", what,
-                       loaded.map->points().size(), loaded.drive.samples.size(), loaded.starts.size(),
-                       shared > 1 ? fmt::format(" of each of {} variants", shared) : "",
-                       options.budget_ms
-                           ? told_budget(*options.budget_ms, variant.experiment, context.catalog, loaded)
-                           : "");
+    said->second = {fmt::format("{}: ok, {} map points, {} observations", what, loaded.map->points().size(),
+                                loaded.drive.samples.size()),
+                    options.budget_ms
+                        ? told_budget(*options.budget_ms, variant.experiment, context.catalog, loaded)
+                        : ""};
   };
-  static_cast<void>(count_trials(variants, loader, tell));
-  for (const auto& [place, text] : answers) answer("{}\n", text);
+  const std::vector<std::size_t> counts = count_trials(variants, loader, tell);
+  std::map<std::string, std::vector<std::size_t>> trials;
+  for (std::size_t i = 0; i < variants.size(); ++i) trials[variants[i].case_name].push_back(counts[i]);
+  for (const Variant& variant : variants) {  // In the order of the first variant of each.
+    const auto said = answers.extract(variant.case_name);
+    if (said.empty()) continue;
+    answer("{}, {}{}\n", said.mapped().loaded, told_trials(trials[said.key()]), said.mapped().budget);
+  }
 }
 
 void check_all(const CheckOptions& options, Context& context) {

@@ -13,8 +13,8 @@ void name_strategy_in_crashes();
 
 /// What is said of a crash to a process that watches this one.
 struct CrashReport {
-  std::uint64_t trial = 0;
-  std::string where;  ///< "matcher 'ransam', step 3"
+  std::uint64_t trial = 0;  ///< As localizers know it: the number of its start.
+  std::string where;        ///< "matcher 'ransam', step 3"
 };
 
 /// From now on a crash in a strategy is also reported through this file descriptor.

@@ -137,9 +137,9 @@ std::string renewal(const BoardOptions& options, const BoardEntry& entry) {
 void require_place(const BoardOptions& options, const BoardEntry& entry) {
   if (!is_folder_name(entry.method))
     throw ConfigError(options.results,
-                      fmt::format("'{}' is no name of a method: it is that of a file; give another "
-                                  "one with --method",
-                                  entry.method));
+                      fmt::format("'{}' is no name of a method: it is that of a file; {}", entry.method,
+                                  options.methods.empty() ? "run it with --method FILE"
+                                                          : "give another one with --method"));
   const fs::path file = entry_file(options.folder(), entry.suite, entry.method);
   if (fs::exists(file) && !options.force)
     throw ConfigError(file, "is there already; --force replaces it, and compares both");
@@ -417,6 +417,7 @@ void add_leaderboard(CLI::App& app, Context& context) {
   check_command->add_option("--share", options->share, "Share of the starts")->capture_default_str();
   add_methods_to(*check_command, *options);
   add_cases_to(*check_command, *options);
+  check_command->get_option("--case")->needs(check_command->get_option("SUITE"));
   add_board_to(*check_command);
   check_command->callback([options, &context] { check(*options, context); });
 

@@ -19,6 +19,7 @@
 #include "app/standard_streams.hpp"
 #include "evaluation/results/journal_scan.hpp"
 #include "evaluation/results/number_text.hpp"
+#include "evaluation/running/drive.hpp"
 #include "evaluation/sharding/run_shard.hpp"
 #include "glocal/error.hpp"
 
@@ -153,7 +154,11 @@ void Supervisor::note_death(const ChildEnd& end, const std::vector<PlannedTrial>
 /// Where the crash says which trial it was, those beside it are not to blame.
 void Supervisor::note_crash(const ChildEnd& end, const std::vector<PlannedTrial>& running) {
   const auto is_named = [&](const PlannedTrial& place) {
-    return end.crash && end.crash->trial == place.trial;
+    if (!end.crash) return false;
+    const std::string& name = manifest_.variants[place.variant].name;
+    const auto variant = std::ranges::find(variants_, name, &Variant::name);
+    return variant != variants_.end() &&
+           end.crash->trial == start_number(variant->experiment.trials, place.trial);
   };
   const bool any_named = std::any_of(running.begin(), running.end(), is_named);
   const Crash crash{end.cause, end.crash ? end.crash->where : ""};

@@ -214,7 +214,8 @@ Verdict StagedMargin::judge(const StepResult& step) {
   const Pose3& pose = step.hypotheses.front().map_from_robot;
   const bool goes_on = best_ && best_->may_be(pose, step);
   const double driven = goes_on ? distance(best_->local_from_robot, step.local_from_robot) : 0.0;
-  const double contact = step.omega_scan.value_or(1.0);
+  // Of hardly a point, a stray one would be much.
+  const double contact = step.saw_nothing ? 1.0 : step.omega_scan.value_or(1.0);
   const bool scan_fits = contact >= params_.min_scan_contact;
   const bool is_usual = scan_fits || contact * steps_ >= least_of_usual_contact * sum_of_contact_;
   if (!goes_on || !is_usual) begin_anew();

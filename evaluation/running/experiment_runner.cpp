@@ -88,7 +88,10 @@ RunResult ExperimentRunner::run() {
   select();
   const std::vector<std::string> names = names_of(variants_);
   const bool has_variants = !names.front().empty();
-  if (has_variants) take_finished();
+  if (has_variants) {
+    take_finished();
+    warn_of_others(all_names);
+  }
   check_outputs();
   note_trials();
   std::size_t trials = 0;
@@ -145,6 +148,23 @@ void ExperimentRunner::take_finished() {
     return true;
   });
   faults.report();
+}
+
+/// Whoever compares what is in the folder counts variants, too, that the file has no longer.
+void ExperimentRunner::warn_of_others(const std::vector<std::string>& names) const {
+  std::vector<std::string> others;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(out_, none)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with('.') && !contains(names, name) && is_results_folder(entry.path()))
+      others.push_back(name);
+  }
+  std::ranges::sort(others);
+  for (const std::string& name : others)
+    callbacks_.warn(fmt::format(
+        "{}: results of a variant that is not in the file: compare, sweep and report count it; remove it if "
+        "that is not meant",
+        (out_ / name).string()));
 }
 
 /// What is wrong with the folders is said before anything is computed.

@@ -52,6 +52,7 @@ class ExperimentRunner {
  private:
   void select();
   void take_finished();
+  void warn_of_others(const std::vector<std::string>& names) const;
   void check_outputs();
   void note_trials() const;
   void run_one(Variant& variant);

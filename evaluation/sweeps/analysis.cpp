@@ -108,9 +108,15 @@ void compare_settings(const std::vector<NamedRun>& runs, const std::vector<Talli
   };
   if (methods.size() < 2) return;
   const std::size_t base = baseline.empty() ? 0 : number_of(baseline);
-  if (base == methods.size()) return;
+  if (base == methods.size()) {
+    analysis.why_not_compared = baseline + ", the baseline, lacks cases, seeds or trials";
+    return;
+  }
   const PairedTrials paired = pair_trials(runs, methods);
-  if (paired.trials.empty()) return;
+  if (paired.trials.empty()) {
+    analysis.why_not_compared = "no start is common to all complete settings";
+    return;
+  }
   const std::vector<ScoresAtPlace> places = scores_at_places(paired);
   const std::vector<Lead> leads = leads_over(base, places);
   for (SettingResult& setting : analysis.settings) {

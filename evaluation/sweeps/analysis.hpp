@@ -47,6 +47,7 @@ struct SweepAnalysis {
   std::vector<std::string> incomplete;  ///< Names of runs without all their trials.
   ParameterFigures parameters;
   std::optional<ChanceOfBest> chance;  ///< None without two complete settings that share trials.
+  std::string why_not_compared;        ///< Though there are two complete settings; else empty.
 };
 
 /// Which parameters to show in the map, by their paths, or by ends of these that no other one has; without,

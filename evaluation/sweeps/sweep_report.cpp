@@ -244,6 +244,15 @@ std::vector<std::string> warnings_of(const SweepAnalysis& a) {
   if (declared > 0)
     warnings.push_back(fmt::format(
         "{} declarations have no reference to judge them by; they count as undecided.", declared));
+  if (!a.why_not_compared.empty())
+    warnings.push_back(fmt::format("Nothing is compared: {}.", a.why_not_compared));
+  const bool differ = a.chance && std::ranges::any_of(a.settings, [&](const SettingResult& setting) {
+                        return setting.complete && setting.chosen.trials != a.chance->trials;
+                      });
+  if (differ)
+    warnings.push_back(fmt::format(
+        "Settings have other starts: scores are of all of them, \"ahead\" is of the {} that all have.",
+        a.chance->trials));
   if (a.settings.size() < 2 || !a.settings.front().complete) return warnings;
   if (a.chance) {
     warnings.push_back(chance_warning(a));

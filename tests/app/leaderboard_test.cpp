@@ -263,7 +263,9 @@ TEST_F(Leaderboard, ImportedPosesAreJudgedLikeOnesOwn) {
   pin();
   run_and_add();
   // The declared poses of the run itself, in the form of others.
-  std::string csv = "case,start,step,x,y,yaw_deg,declared,seed\n";
+  std::string csv =
+      "\xEF\xBB\xBF"
+      "case,start,step,x,y,yaw_deg,declared,seed\n";
   for (const int seed : {1, 2}) {
     for (const Json& trial :
          json_lines(file(fmt::format("results/few_small_room_seed-{}/trials.jsonl", seed)))) {

@@ -113,6 +113,16 @@ TEST_F(RunVariants, AVariantWithAnotherDriveSaysSo) {
   expect_same_results("alone", "all/seed-2");
 }
 
+TEST_F(RunVariants, OnesThatTheFileHasNoLongerAreNamed) {
+  write_experiment("trials: {whole: true, max_steps: 2}\n", "variants: {grid: {seed: [1, 2]}}\n");
+  EXPECT_THAT(good(run_room("all")).err, Not(HasSubstr("not in the file")));
+  EXPECT_THAT(good(run_room("all", "--quiet --only seed-2")).err, Not(HasSubstr("not in the file")));
+  write_experiment("trials: {whole: true, max_steps: 2}\n", "variants: {grid: {seed: [1, 3]}}\n");
+  EXPECT_THAT(
+      good(run_room("all")).err,
+      HasSubstr("all/seed-2: results of a variant that is not in the file: compare, sweep and report"));
+}
+
 TEST_F(RunVariants, ResultsWithoutVariantsAreNotMixedWithThem) {
   good(run_room("all", "--quiet --set variants={}"));
   EXPECT_THAT(refusal(run_room("all", "--force")),
@@ -122,6 +132,14 @@ TEST_F(RunVariants, ResultsWithoutVariantsAreNotMixedWithThem) {
 TEST_F(RunVariants, AreCheckedWithoutRunningThem) {
   const Answer answer = good(run("check " + file("room.yaml")));
   EXPECT_THAT(answer.out, MatchesRegex(".*: ok, .* trials of each of 2 variants\n"));
+  write_experiment("trials: {every_scan: 9, max_steps: 6}\n",
+                   "variants: {list: {few: {}, many: {trials.every_scan: 4}}}\n");
+  good(run_room("counted"));
+  const auto trials = [&](const std::string& variant) {
+    return json("counted/" + variant + "/summary.json")["trials"]["count"].get<int>();
+  };
+  EXPECT_THAT(run("check " + file("room.yaml")).out,
+              HasSubstr(std::to_string(trials("few") + trials("many")) + " trials of 2 variants\n"));
 }
 
 }  // namespace

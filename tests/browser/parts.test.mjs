@@ -223,12 +223,12 @@ test("names in commands are single words, whatever is in them", () => {
   const start = { own: { case: "room", seed: 2 }, start: 7 };
   assert.equal(
     lost.explainCommands("small@1", "mine", start),
-    "glocal run --suite small@1 --method mine --only mine_room_seed-2 --out results/small@1/mine\nglocal explain results/small@1/mine/mine_room_seed-2 --trial 7",
+    "glocal run --suite small@1 --method mine --only mine_room_seed-2 --out results/explain/small@1/mine\nglocal explain results/explain/small@1/mine/mine_room_seed-2 --trial 7",
   );
   const name = "it's; rm -rf $HOME";
   const [command] = lost.explainCommands("small@1", name, start).split("\n");
   const words = JSON.parse(execFileSync("sh", ["-c", `glocal() { node -e 'console.log(JSON.stringify(process.argv.slice(1)))' -- "$@"; }; ${command}`], { encoding: "utf8" }));
-  assert.deepEqual(words.slice(3), ["--method", name, "--only", `${name}_room_seed-2`, "--out", `results/small@1/${name}`]);
+  assert.deepEqual(words.slice(3), ["--method", name, "--only", `${name}_room_seed-2`, "--out", `results/explain/small@1/${name}`]);
 });
 
 test("addresses of lost starts come back, whatever is in their names", () => {

@@ -216,6 +216,13 @@ TEST_F(CrashingShard, ATrialThatCrashesTwiceIsARowAndTakesNoOthersWithIt) {
   }
 }
 
+TEST_F(CrashingShard, ATrialIsNotBlamedForTheCrashOfTheStartThatHasItsNumber) {
+  // Trial 0 begins at start 1, and trial 1 beside it.
+  const Answer answer = run_shard("how: crash, stamp: 5", "--jobs 2 --set trials.only=[1,2]");
+  EXPECT_THAT(refusal(answer, 1), HasSubstr("trial 0 has crashed (SIGSEGV); it is given up"));
+  EXPECT_THAT(answer.err, Not(HasSubstr("trial 1 has crashed")));
+}
+
 TEST_F(CrashingShard, ATrialThatEndsTheProgramHasCrashed) {
   EXPECT_THAT(refusal(run_shard("how: exit, stamp: 10"), 1),
               HasSubstr("trial 2 has crashed (exit(0)); it is given up"));

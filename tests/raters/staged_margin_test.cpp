@@ -63,6 +63,7 @@ TEST(StagedMargin, ScansWithoutAPointCountNothing) {
   const auto without_points = [](double driven) {
     StepResult result = step(0.9, 0.3, driven);
     result.saw_nothing = true;
+    result.omega_scan = 0.0;  // One stray hit.
     return result;
   };
   StagedMargin rule({}, {});

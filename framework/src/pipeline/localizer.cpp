@@ -196,7 +196,8 @@ template <class Strategy>
 std::unique_ptr<Strategy> Localizer::make(const Registry<Strategy, StageSetup>& registry,
                                           const StrategyChoice& choice, RunningStage& stage) const {
   if (const auto why = why_unfit(choice, registry, motion_)) throw ConfigError("", *why);
-  stage = {.kind = registry.kind(), .name = choice.name};
+  stage.kind = registry.kind();
+  stage.name = choice.name;
   const StageScope scope(&stage);
   return registry.make(choice, stage_setup_);
 }

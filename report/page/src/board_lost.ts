@@ -38,7 +38,8 @@ const quoted = (word: string): string => (/^[\w@%+=:,./-]+$/.test(word) ? word :
 
 export function explainCommands(suite: string, method: string, { own, start }: Lost): string {
   const run = `${method}_${own.case}_seed-${own.seed}`;
-  const out = `results/${suite}/${method}`;
+  // Not where results of a share may be, whose runs have the same names.
+  const out = `results/explain/${suite}/${method}`;
   return (
     `glocal run --suite ${quoted(suite)} --method ${quoted(method)} --only ${quoted(run)} --out ${quoted(out)}\n` +
     `glocal explain ${quoted(`${out}/${run}`)} --trial ${start}`

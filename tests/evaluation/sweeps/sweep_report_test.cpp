@@ -37,6 +37,19 @@ TEST(SweepReport, TellsChanceFromMore) {
           "baseline. It is 0.0 points ahead of b, the second best"));
 }
 
+TEST(SweepReport, SaysWhereSettingsHaveOtherStartsOrNothingIsCompared) {
+  const std::vector<NamedRun> runs = {sweep_run({"a"}, "ruu"), sweep_run({"b"}, "rrrrr")};
+  const SweepAnalysis analysis = analyse_sweep(runs);
+  EXPECT_EQ(analysis.chance->trials, 3U);
+  EXPECT_EQ(warnings_of(analysis).front(),
+            "Settings have other starts: scores are of all of them, \"ahead\" is of the 3 that all have.");
+  std::vector<NamedRun> incomplete = {sweep_run({"a"}, "rrr"), sweep_run({"b"}, "rru"),
+                                      sweep_run({"cut"}, "rru")};
+  incomplete.back().results.complete = false;
+  EXPECT_THAT(warnings_of(analyse_sweep(incomplete, {}, "cut")),
+              Contains("Nothing is compared: cut, the baseline, lacks cases, seeds or trials."));
+}
+
 TEST(SweepReport, SaysWhereNoLeadIsPossible) {
   const std::vector<NamedRun> runs = {sweep_run({"a"}, "rrrr"), sweep_run({"b"}, "rrrr"),
                                       sweep_run({"c"}, "rrru")};
