@@ -1,8 +1,11 @@
 // Points and the known map.
 #include <fmt/format.h>
+#include <pybind11/stl.h>
 
 #include <algorithm>
+#include <optional>
 
+#include "pipeline/stage_contracts.hpp"
 #include "python/src/conversions.hpp"
 #include "python/src/values.hpp"
 
@@ -26,11 +29,12 @@ void bind_points(py::module_& module) {
       .def("__len__", [](const Bound& p) { return p->size(); })
       .def(
           "__array__",
-          [](const Bound& p, const py::object& type) {
+          [](const Bound& p, const py::object& type, std::optional<bool> copy) {
+            if (copy && !*copy) throw py::value_error("points are an array only as a copy");
             py::array array = array_of(*p);
             return type.is_none() ? py::object(array) : array.attr("astype")(type);
           },
-          py::arg("dtype") = py::none())
+          py::arg("dtype") = py::none(), py::arg("copy") = py::none())
       .def("__repr__", [](const Bound& p) { return fmt::format("<Points: {}>", p->size()); });
 }
 
@@ -109,6 +113,12 @@ Map make_map(const py::object& points, const py::object& grid, const py::object&
                                       data.normals.size(), data.points.size()));
   if (!path.is_none()) data.path = poses_of(path);
   data.resolution = resolution;
+  // All that work with the map rely on it. Its motion is not known yet.
+  try {
+    check_map(data, Motion::free);
+  } catch (const BrokenContract& broken) {
+    throw py::value_error(fmt::format("this cannot be a map: {}", broken.what()));
+  }
   return std::make_shared<GlobalMap>(std::move(data));
 }
 

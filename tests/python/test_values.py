@@ -59,6 +59,16 @@ def test_points_are_views_of_one_memory():
     assert len(points) == 4
 
 
+def test_points_become_arrays_as_copies_alone():
+    points = glocal.Points([[1, 2], [3, 4]])
+    assert np.array(points, dtype=np.float64).tolist() == [[1, 2, 0], [3, 4, 0]]
+    # As NumPy 2 asks for them.
+    assert points.__array__(copy=True).tolist() == points.__array__(copy=None).tolist() == [[1, 2, 0], [3, 4, 0]]
+    assert points.__array__(np.dtype(np.float64), copy=True).dtype == np.float64
+    with pytest.raises(ValueError, match="only as a copy"):
+        points.__array__(copy=False)
+
+
 def test_a_view_keeps_its_memory():
     x = glocal.Points([[float(i), 0.0] for i in range(10000)]).x
     gc.collect()
@@ -147,6 +157,26 @@ def test_a_map_needs_points():
         glocal.GlobalMap(grid=glocal.OccupancyGrid(np.ones((2, 2)), 0.1))
     with pytest.raises(ValueError, match="0 .unknown., 1 .free. or 2"):
         glocal.OccupancyGrid(np.full((2, 2), 7), 0.1)
+
+
+@pytest.mark.parametrize(
+    "values, why",
+    [
+        ({"points": [[0, 0], [math.nan, 0], [1, 1]]}, "a value of the points is not finite"),
+        ({"points": [[0, 0], [0, math.inf]]}, "a value of the points is not finite"),
+        ({"points": [[0, 0]], "normals": [[math.nan, 0]]}, "a value of the normals is not finite"),
+        ({"points": [[0, 0]], "path": [(math.nan, 0, 0)]}, "pose 0 of the path"),
+        ({"points": [[0, 0]], "origin": (0, math.nan, 0)}, "the origin is not finite"),
+        ({"grid": glocal.OccupancyGrid(np.full((2, 2), 2), 0.1, (math.nan, 0, 0)), "points": [[0, 0]]}, "the grid"),
+    ],
+)
+def test_numbers_that_are_none_make_no_map(values, why):
+    with pytest.raises(ValueError, match="cannot be a map: " + why):
+        glocal.GlobalMap(**values)
+
+
+def test_a_map_may_be_far_away_without_an_origin():
+    assert np.asarray(glocal.GlobalMap([[500_000, 1]], resolution=0.05).points).tolist() == [[500_000, 1, 0]]
 
 
 def test_a_million_accesses_leave_no_memory_behind():
