@@ -397,6 +397,7 @@ def _is_abstract(strategy: type[_Strategy], method: str) -> bool:
 _registered: dict[tuple[str, str], _Registered] = {}
 _plugin_files: list[str] = []
 _of_plugin: dict[tuple[str, str], _Registered] | None = None  # while one is executed
+_executed: dict[str, tuple[str, list[_Registered]]] = {}  # of each plugin file: its hash, and what it registered
 _versions = itertools.count()
 _version = next(_versions)
 
@@ -426,7 +427,8 @@ def register(name: str) -> Callable[[_S], _S]:
 def load_plugin(file: str | pathlib.Path) -> None:
     """Loads the strategies of a plugin, a shared object or a Python file, as the program's --plugin does.
 
-    Results of runs name it, so that the program can load it again. A Python file that is loaded again is read again.
+    Results of runs name it, so that the program can load it again. A Python file that is loaded again is executed again
+    if it has changed.
     """
     path = str(pathlib.Path(file).resolve())
     _take(lambda: None if path in _plugin_files else _plugin_files.append(path))
@@ -437,7 +439,7 @@ def _take(add: Callable[[], None]) -> None:
     global _version
     from glocal import _core
 
-    before = dict(_registered), list(_plugin_files)
+    before = dict(_registered), list(_plugin_files), _version
     add()
     _version = next(_versions)
     try:
@@ -446,7 +448,7 @@ def _take(add: Callable[[], None]) -> None:
         _registered.clear()
         _registered.update(before[0])
         _plugin_files[:] = before[1]
-        _version = next(_versions)
+        _version = before[2]  # what the core has from then is still good, and no file is executed for it
         raise
 
 
@@ -472,8 +474,12 @@ def sources() -> list[tuple[str, str, str]]:
 
 
 def execute(file: str) -> list[_Registered]:
-    """Runs a Python file, and returns the strategies that it registers."""
+    """Runs a Python file, unless it has not changed since, and returns the strategies that it registers."""
     global _of_plugin
+    digest = hashlib.sha256(pathlib.Path(file).read_bytes()).hexdigest()
+    if file in _executed and _executed[file][0] == digest:
+        # Modules that it imports would not register theirs again.
+        return _executed[file][1]
     name = "glocal_plugin_" + pathlib.Path(file).stem
     spec = importlib.util.spec_from_file_location(name, file)
     if spec is None or spec.loader is None:
@@ -488,4 +494,5 @@ def execute(file: str) -> list[_Registered]:
         _of_plugin = before
     if not found:
         raise ImportError(f"{file} registers no strategy; decorate a class with @glocal.register(\"name\")")
+    _executed[file] = digest, found
     return found

@@ -584,6 +584,35 @@ def test_a_plugin_file_is_executed_once(room, tmp_path):
     assert executed.read_text() == "."
 
 
+def test_a_plugin_file_is_executed_once_whatever_is_registered_and_whoever_names_it(room, tmp_path, monkeypatch):
+    """Here it could not be executed again: its strategies are in a module that it imports."""
+    monkeypatch.syspath_prepend(tmp_path)
+    (tmp_path / "cells_of_a_module.py").write_text(CELLS.read_text())
+    (tmp_path / "plugin.py").write_text("import cells_of_a_module\n")
+    room.write_text("plugins: [plugin.py]\n" + room.read_text())
+    for parts in (1, 2):
+        glocal.register("parts")(define())
+        glocal.Experiment.load(room).with_(**{"localizer.clusterer.cells.side": 0.1 * parts}).localizer()
+    glocal.load_plugin(tmp_path / "plugin.py")
+    glocal.register("others")(define())
+    assert "from plugin.py" in glocal.describe("cells")
+
+
+def test_a_plugin_file_that_cannot_be_loaded_again_leaves_what_it_was(room, tmp_path):
+    plugin = tmp_path / "cells.py"
+    plugin.write_text(CELLS.read_text())
+    glocal.load_plugin(plugin)
+    plugin.write_text("def (:\n")
+    with pytest.raises(glocal.ConfigError, match="SyntaxError"):
+        glocal.load_plugin(plugin)
+    assert "cells" in glocal.list_strategies("clusterer")
+    assert "Side of a cell" in glocal.describe("cells")
+    glocal.Experiment.load(room).with_(**{"localizer.clusterer": "cells"}).localizer()
+    plugin.write_text(CELLS.read_text())
+    glocal.load_plugin(plugin)
+    glocal.register("others")(define())
+
+
 def test_a_plugin_file_that_changes_is_read_again_when_it_is_loaded_again(room, tmp_path):
     def text(r):
         return (
