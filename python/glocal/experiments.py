@@ -129,8 +129,8 @@ class Experiment:
         called with a TrialProgress. only: names of the variants to run.
 
         Raises ConfigError before anything is written, RunError if results cannot be written, and Interrupted after
-        Ctrl-C; a second Ctrl-C ends the process. A strategy that raises lets its trial fail, not the run. Other threads of
-        Python go on meanwhile.
+        Ctrl-C; a second Ctrl-C ends the process. Where the run gets complete all the same, Ctrl-C is a KeyboardInterrupt. A
+        strategy that raises lets its trial fail, not the run. Other threads of Python go on meanwhile.
         """
         if not 1 <= jobs <= 256:
             raise ValueError(f"jobs must be between 1 and 256, and not {jobs}")

@@ -444,7 +444,7 @@ def _take(add: Callable[[], None]) -> None:
     _version = next(_versions)
     try:
         _core.list_strategies()
-    except Exception:
+    except BaseException:  # Ctrl-C is one, too
         _registered.clear()
         _registered.update(before[0])
         _plugin_files[:] = before[1]

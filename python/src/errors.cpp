@@ -56,13 +56,13 @@ void stay_known() {
 void translate_errors() {
   // NOLINTNEXTLINE(performance-unnecessary-value-param): the signature is pybind11's
   py::register_exception_translator([](std::exception_ptr thrown) {
+    // What Ctrl-C has ended is not at fault.
+    if (PyErr_CheckSignals() != 0) return;
     try {
       if (thrown) std::rethrow_exception(thrown);
     } catch (const ConfigError& error) {
       raise(as_python(error));
     } catch (const StrategyError& error) {
-      // A strategy in Python that Ctrl-C has ended is not at fault.
-      if (PyErr_CheckSignals() != 0) return;
       raise_named("StrategyError", error.what());
     } catch (const RunError& error) {
       raise_named("RunError", error.what());
@@ -78,6 +78,8 @@ std::string told(const py::error_already_set& error) {
   const std::string last = joined(traceback.attr("format_exception_only")(error.type(), error.value()));
   const std::string all = joined(traceback.attr("format_exception")(
       error.type(), error.value(), error.trace() ? error.trace() : py::object(py::none())));
+  // Once more, after the last Python code that could take it.
+  if (error.matches(PyExc_KeyboardInterrupt)) PyErr_SetInterrupt();
   return last + all.substr(0, all.find_last_not_of('\n') + 1);
 }
 

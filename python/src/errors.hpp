@@ -12,7 +12,8 @@ namespace py = pybind11;
 /// Lets errors of the core arrive in Python as those of glocal/errors.py.
 void translate_errors();
 
-/// What happened in Python: its last line, then the traceback.
+/// What happened in Python: its last line, then the traceback. Ctrl-C is told to whoever has called the core,
+/// too.
 [[nodiscard]] std::string told(const py::error_already_set& error);
 
 /// Lets Python know this thread until it ends: to get to know it anew for each call takes several
@@ -28,10 +29,7 @@ auto with_python(Work work) {
   try {
     return work();
   } catch (const py::error_already_set& error) {
-    const std::string what = told(error);
-    // Ctrl-C is for whoever has called the core: once more, after the last Python code that could take it.
-    if (error.matches(PyExc_KeyboardInterrupt)) PyErr_SetInterrupt();
-    throw std::runtime_error(what);
+    throw std::runtime_error(told(error));
   }
 }
 

@@ -94,6 +94,8 @@ class File {
     const Interrupts interrupts;
     observer.stop = [&] { return interrupts.happened(); };
     const RunResult result = run_variants(variants_, file_, session_->catalog, options, observer);
+    // It came too late for this run, and is for whoever has asked for it.
+    if (result.complete && interrupts.happened()) PyErr_SetInterrupt();
     return {result.folder, result.complete};
   }
 

@@ -216,6 +216,17 @@ def test_ctrl_c_ends_a_run_in_good_order_and_the_next_one_goes_on(room, tmp_path
     assert_equal_results(glocal.Experiment.load(room).run(tmp_path / "other").folder, whole.folder)
 
 
+def test_ctrl_c_that_comes_too_late_for_a_run_is_not_lost(room, tmp_path):
+    def tell(now):
+        if now.finished == now.trials:
+            os.kill(os.getpid(), signal.SIGINT)
+
+    with pytest.raises(KeyboardInterrupt) as caught:
+        glocal.Experiment.load(room).run(tmp_path / "out", progress=tell)
+    assert not isinstance(caught.value, glocal.Interrupted)
+    assert glocal.load_results(tmp_path / "out").summary()["complete"]
+
+
 def test_ctrl_c_is_pythons_again_after_a_run(room, tmp_path):
     glocal.Experiment.load(room).run(tmp_path / "out")
     with pytest.raises(KeyboardInterrupt):

@@ -467,6 +467,34 @@ def test_ctrl_c_in_a_strategy_is_no_fault_of_it(room):
     assert localizer.step(sample.observation).step == 0
 
 
+def interrupted(*_, **__):
+    os.kill(os.getpid(), signal.SIGINT)
+    time.sleep(10)
+
+
+def test_ctrl_c_while_a_strategy_is_made_is_no_fault_of_it(room):
+    glocal.register("patient")(define(__init__=interrupted))
+    experiment = glocal.Experiment.load(room).with_(**{"localizer.clusterer": "patient"})
+    with pytest.raises(KeyboardInterrupt):
+        experiment.localizer()
+
+
+def test_ctrl_c_while_parameters_are_checked_is_no_fault_of_them(room):
+    params = dataclass(type("Params", (), {"__annotations__": {"n": int}, "n": glocal.param(1, "A number."), "__post_init__": interrupted}))
+    glocal.register("patient")(define(Params=params))
+    with pytest.raises(KeyboardInterrupt):
+        glocal.Experiment.load(room).with_(**{"localizer.clusterer": "patient"})
+
+
+def test_ctrl_c_while_a_plugin_is_executed_is_no_fault_of_it(tmp_path):
+    plugin = tmp_path / "patient.py"
+    plugin.write_text("import os, signal, time\nos.kill(os.getpid(), signal.SIGINT)\ntime.sleep(10)\n")
+    with pytest.raises(KeyboardInterrupt):
+        glocal.load_plugin(plugin)
+    assert "dbscan" in glocal.list_strategies("clusterer")
+    assert str(plugin) not in strategies.plugin_files()
+
+
 @pytest.mark.parametrize(
     "answer, why",
     [
