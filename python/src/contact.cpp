@@ -12,15 +12,10 @@ namespace {
 
 using Index = std::shared_ptr<ContactIndex>;
 
-/// Points of the core are not copied.
+/// Points of the core are not copied, unless they are lent.
 py::array shares(const ContactIndex& index, const py::object& points, const py::object& poses) {
-  Points own;
-  const Points* all = &own;
-  if (py::isinstance<Seen<Points>>(points)) {
-    all = &*points.cast<const Seen<Points>&>();
-  } else {
-    own = points_of(points);
-  }
+  const Seen<Points> all = py::isinstance<Seen<Points>>(points) ? points.cast<const Seen<Points>&>().kept()
+                                                                : Seen(points_of(points));
   const std::vector<Pose3> moves = poses_of(poses);
   py::array_t<double> result(static_cast<py::ssize_t>(moves.size()));
   double* out = result.mutable_data();

@@ -181,10 +181,10 @@ class BoundLocalizer {
   }
 
   Seen<StepResult> step(const Seen<Observation>& observation) {
-    const Observation& given = *observation;
+    const Seen<Observation> given = observation.kept();
     const py::gil_scoped_release others_may;
     const Turn turn(*this);
-    return Seen<StepResult>(localizer_->step(given));
+    return Seen<StepResult>(localizer_->step(*given));
   }
   Seen<StepResult> go_on(std::optional<std::size_t> looks) {
     const py::gil_scoped_release others_may;

@@ -21,7 +21,11 @@ using Owner = std::shared_ptr<const void>;
 class Loan {
  public:
   Loan() = default;
-  ~Loan() { *lasts_ = false; }
+  /// Not while somebody reads: a thread that a strategy has left behind may.
+  ~Loan() {
+    const py::gil_scoped_acquire gil;
+    *lasts_ = false;
+  }
   Loan(const Loan&) = delete;
   Loan& operator=(const Loan&) = delete;
 
@@ -53,6 +57,9 @@ class Seen {
     return *value_;
   }
   [[nodiscard]] const T* operator->() const { return &**this; }
+
+  /// It, or a copy of what is lent: for whoever reads it without the interpreter's lock.
+  [[nodiscard]] Seen kept() const { return owner_ ? *this : Seen(T(**this)); }
 
   /// A part of it.
   template <class U>

@@ -5,6 +5,7 @@ import math
 import os
 import pathlib
 import signal
+import threading
 import time
 from dataclasses import dataclass
 from typing import Literal, Optional
@@ -544,6 +545,37 @@ def test_what_was_lent_is_gone_after_the_call_and_arrays_of_it_stay(room, tmp_pa
         assert np.array_equal(column, copy)
         with pytest.raises(RuntimeError, match="lent for a call that is over"):
             lent.quality
+
+
+def test_a_thread_that_is_left_behind_sees_whole_values_or_an_error(room, tmp_path):
+    experiment = glocal.Experiment.load(room)
+    contact = glocal.contact_index(experiment.load_map(), 0.1)
+    readers, wrong = [], []
+
+    def read(local, points, share):
+        try:
+            while True:
+                now = np.asarray(local.points)  # raises once the loan is over
+                if not np.array_equal(now, points) or contact.share(local.points, [(0, 0, 0)]) != share:
+                    wrong.append(now)
+        except RuntimeError as over:
+            assert "lent for a call that is over" in str(over)
+
+    @glocal.register("leaving")
+    class Leaving(glocal.Verifier):
+        """Leaves a thread behind."""
+
+        def verify(self, local, map_from_local, gate):
+            points = np.asarray(local.points)
+            readers.append(threading.Thread(target=read, args=(local, points, contact.share(points, [(0, 0, 0)]))))
+            readers[-1].start()
+            return glocal.Verification()
+
+    experiment.with_(**{"localizer.verifier": "leaving"}).run(tmp_path / "out")
+    for reader in readers:
+        reader.join(60)
+        assert not reader.is_alive()
+    assert readers and not wrong
 
 
 def test_a_setup_can_be_kept_and_does_nothing_once_the_work_is_over(room, tmp_path):
