@@ -17,15 +17,18 @@ from glocal.results import Results, load_results
 PathLike = Union[str, "os.PathLike[str]"]
 
 
+def _plain(value: Any) -> Any:
+    """What JSON has in place of a value that it does not know."""
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    if hasattr(value, "tolist"):  # of numpy
+        return value.tolist()
+    raise TypeError(f"{value!r} is no value of an experiment; there are numbers, texts, True, paths, lists and dicts")
+
+
 def _yaml(value: Any) -> str:
     """A value as it is given with --set. JSON is YAML, too."""
-    if isinstance(value, str):
-        return value
-    if isinstance(value, os.PathLike):
-        return json.dumps(os.fspath(value))
-    if hasattr(value, "tolist"):  # of numpy
-        value = value.tolist()
-    return json.dumps(value)
+    return value if isinstance(value, str) else json.dumps(value, default=_plain)
 
 
 def _pairs(changes: Mapping[str, Any]) -> list[tuple[str, str]]:
@@ -83,7 +86,8 @@ class Experiment:
     def with_(self, **changes: Any) -> Experiment:
         """The same experiment with other values, by their paths: `with_(**{"localizer.matcher.ransam.iterations": 50_000})`.
 
-        Values are as in YAML: numbers, texts, True, lists and dicts. Raises ConfigError as load() does.
+        Values are as in YAML: numbers, texts, True, lists and dicts; paths and what is numpy's, too. Raises ConfigError as
+        load() does.
         """
         # What is given last is said last: it may be a part of what was given before, or hold it.
         kept = {path: value for path, value in self._changes.items() if path not in changes}

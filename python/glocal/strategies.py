@@ -306,6 +306,8 @@ def _field_of(field: dataclasses.Field[Any], hint: Any) -> _Field:
     required = field.default is dataclasses.MISSING and field.default_factory is dataclasses.MISSING
     choices = facts.choices or choices
     default = _default_of(field)
+    if default is None and not required and kind != "float or None":
+        raise TypeError(f"the default of the parameter '{field.name}', None, is no {kind}")
     for value in default if isinstance(default, (list, tuple)) else [default]:
         within = not isinstance(value, (int, float)) or (math.isfinite(value) and facts.min <= value <= facts.max and value > facts.above)
         if not within or (choices and isinstance(value, str) and value not in choices):

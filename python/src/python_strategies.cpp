@@ -73,6 +73,18 @@ class Method {
 
 constexpr auto nothing = [](const py::object&) {};
 
+/// Reads a number; a value_error with `wanted` where the answer is none.
+template <class Number>
+auto number_of(const char* wanted) {
+  return [wanted](const py::object& answer) {
+    try {
+      return answer.cast<Number>();
+    } catch (const py::cast_error&) {
+      throw py::value_error(fmt::format("{}, and not {}", wanted, std::string(py::repr(answer))));
+    }
+  };
+}
+
 class PythonMapSource final : public MapSource {
  public:
   PythonMapSource(py::object object, std::shared_ptr<const void> use)
@@ -245,9 +257,7 @@ class PythonRater final : public Rater {
 class PythonThresholdPolicy final : public ThresholdPolicy {
  public:
   explicit PythonThresholdPolicy(py::object object) : object_(std::move(object)) {}
-  double omega_max() const override {
-    return omega_max_([](const py::object& omega_max) { return omega_max.cast<double>(); });
-  }
+  double omega_max() const override { return omega_max_(number_of<double>("omega_max() returns a number")); }
   void update(const std::vector<Hypothesis>& hypotheses) override {
     const Loan loan;
     update_(nothing, Seen(hypotheses, loan));
@@ -272,7 +282,7 @@ class PythonVerdictRule final : public VerdictRule {
         Seen(step, loan));
   }
   std::size_t least_steps() const override {
-    return least_steps_([](const py::object& steps) { return steps.cast<std::size_t>(); });
+    return least_steps_(number_of<std::size_t>("least_steps() returns the number of a step"));
   }
   void refute(const Verification& verification) override { refute_(nothing, verification); }
   void withhold() override { withhold_(nothing); }

@@ -45,6 +45,22 @@ def test_lists_and_dicts_are_values_too(room):
     assert "steps: false" in changed.effective_yaml()
 
 
+def test_values_within_values_are_taken_as_they_are_alone(room):
+    changed = glocal.Experiment.load(room).with_(
+        **{
+            "map": {"simulation": {"world": room.parent / "world.yaml"}},
+            "trials": {"every_scan": np.int64(7)},
+            "localizer.clusterer": {"dbscan": {"radius": np.float32(0.75)}},
+            "output.steps": np.False_,
+        }
+    )
+    for text in ["world.yaml", "every_scan: 7", "radius: 0.75", "steps: false"]:
+        assert text in changed.effective_yaml()
+    for wrong in (object(), [object()]):
+        with pytest.raises(TypeError, match="is no value of an experiment"):
+            changed.with_(seed=wrong)
+
+
 def test_what_is_changed_last_holds(room):
     iterations = "localizer.matcher.ransam.iterations"
     first = glocal.Experiment.load(room).with_(**{iterations: 1000})

@@ -363,6 +363,11 @@ class DefaultOutOfBounds:
 
 
 @dataclass
+class DefaultThatIsNone:
+    parts: int = glocal.param(None, "How many.", min=1)
+
+
+@dataclass
 class DefaultThatIsNoNumber:
     sizes: list[float] = glocal.param([1.0, math.inf], "Of parts.", unit="m")
 
@@ -380,6 +385,7 @@ class DefaultThatIsNoChoice:
         (lambda: define(Params=BadType), "no type of a parameter"),
         (lambda: define(Params=BadDefault), "default of the parameter 'parts', 0.5, is no int"),
         (lambda: define(Params=DefaultOutOfBounds), "default of the parameter 'parts', 0, is none that a file may give"),
+        (lambda: define(Params=DefaultThatIsNone), "default of the parameter 'parts', None, is no int"),
         (lambda: define(Params=DefaultThatIsNoNumber), "default of the parameter 'sizes', inf, is none"),
         (lambda: define(Params=DefaultThatIsNoChoice), "default of the parameter 'mode', 'quick', is none"),
         (lambda: define(Params=int), "dataclass"),
@@ -494,6 +500,33 @@ def test_ctrl_c_while_a_plugin_is_executed_is_no_fault_of_it(tmp_path):
         glocal.load_plugin(plugin)
     assert "dbscan" in glocal.list_strategies("clusterer")
     assert str(plugin) not in strategies.plugin_files()
+
+
+def test_a_return_that_is_forgotten_is_told(room, tmp_path):
+    @glocal.register("asks_nothing")
+    class AsksNothing(glocal.ThresholdPolicy):
+        """Forgets to return its threshold."""
+
+        def omega_max(self):
+            pass
+
+        def update(self, hypotheses):
+            pass
+
+    @glocal.register("at_some_time")
+    class AtSomeTime(glocal.VerdictRule):
+        """Forgets to return its number."""
+
+        def judge(self, step):
+            return glocal.Verdict("searching")
+
+        def least_steps(self):
+            pass
+
+    why = run(room, tmp_path, **{"localizer.threshold_policy": "asks_nothing"}).trial_table["why"][0]
+    assert "omega_max() returns a number, and not None" in why
+    with pytest.raises(ValueError, match=r"least_steps\(\) returns the number of a step, and not None"):
+        run(room, tmp_path, **{"localizer.verdict_rule": "at_some_time"})
 
 
 @pytest.mark.parametrize(
