@@ -24,11 +24,13 @@ class Table(Mapping[str, "np.ndarray[Any, Any]"]):
     """Columns of the same length by name: arrays of numbers, truth values or texts.
 
     Struct within struct is a name with a dot, as in table["pose.x"]. Where a line has no value a number is NaN, and a
-    text is empty. docs/file-formats.md says what each is. Arrays of numbers cannot be written to.
+    text is empty. docs/file-formats.md says what each is. The arrays cannot be written to.
     """
 
     def __init__(self, columns: Mapping[str, "np.ndarray[Any, Any]"]) -> None:
         self._columns = dict(columns)
+        for column in self._columns.values():
+            column.flags.writeable = False
 
     def __getitem__(self, name: str) -> "np.ndarray[Any, Any]":
         try:
@@ -218,5 +220,5 @@ def compare(runs: Sequence[Results | PathLike], *, baseline: str = "", times: bo
     runs: results, or folders of them. baseline: name of a method (default: the first). times: whether to
     compare times, which no two runs have in common.
     """
-    folders = [str(run.folder if isinstance(run, Results) else run) for run in runs]
+    folders = [str(run._place if isinstance(run, Results) else run) for run in runs]
     return Comparison(*_core.compare(folders, baseline, times))

@@ -8,6 +8,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -123,44 +124,26 @@ py::tuple read_folder(const fs::path& folder) {
   return py::make_tuple(summary, Table::arrays(std::move(trials)), Table::arrays(std::move(steps)));
 }
 
-std::vector<std::string> folders_in(const fs::path& folder) {
-  std::vector<std::string> folders;
-  for (const fs::path& found : results_folders(folder)) folders.push_back(found.string());
-  return folders;
-}
-
 /// In short, in full, as Markdown, as CSV and as JSON.
-py::tuple compared(const std::vector<std::string>& folders, const std::string& baseline, bool times) {
-  std::string text, full, markdown, csv, json;
-  {
-    const py::gil_scoped_release others_may;
-    const std::vector<NamedRun> runs = read_runs(folders);
-    if (runs.size() < 2)
-      throw ConfigError(folders.empty() ? "" : folders.front(),
-                        "there is nothing to compare it with; name two folders of results or more");
-    const ComparisonOutput output =
-        comparison_output(runs, find_baseline(runs, baseline), times ? measures() : measures_but_time());
-    text = as_text(output.brief);
-    full = as_text(output.full);
-    markdown = as_markdown(output.full);
-    csv = output.csv;
-    json = output.json_text(-1);
-  }
-  return py::make_tuple(text, full, markdown, csv, json);
+std::tuple<std::string, std::string, std::string, std::string, std::string> compared(
+    const std::vector<std::string>& folders, const std::string& baseline, bool times) {
+  const std::vector<NamedRun> runs = read_runs(folders);
+  if (runs.size() < 2)
+    throw ConfigError(folders.empty() ? "" : folders.front(),
+                      "there is nothing to compare it with; name two folders of results or more");
+  const ComparisonOutput output =
+      comparison_output(runs, find_baseline(runs, baseline), times ? measures() : measures_but_time());
+  return {as_text(output.brief), as_text(output.full), as_markdown(output.full), output.csv,
+          output.json_text(-1)};
 }
 
 /// As text and as JSON.
-py::tuple swept(const std::string& folder, std::size_t most_settings, const std::string& baseline) {
-  std::string text, json;
-  {
-    const py::gil_scoped_release others_may;
-    const std::vector<NamedRun> runs = read_runs(
-        {folder}, [](const fs::path& run) { return read_results(run, {}, ResultParts::all_but_steps); });
-    const SweepAnalysis analysis = analyse_sweep(runs, {}, baseline);
-    text = text_report(analysis, most_settings);
-    json = json_text(analysis);
-  }
-  return py::make_tuple(text, json);
+std::pair<std::string, std::string> swept(const std::string& folder, std::size_t most_settings,
+                                          const std::string& baseline) {
+  const std::vector<NamedRun> runs = read_runs(
+      {folder}, [](const fs::path& run) { return read_results(run, {}, ResultParts::all_but_steps); });
+  const SweepAnalysis analysis = analyse_sweep(runs, {}, baseline);
+  return {text_report(analysis, most_settings), json_text(analysis)};
 }
 
 std::string text_of_variants(const std::vector<std::pair<std::string, std::string>>& variants) {
@@ -172,14 +155,15 @@ std::string text_of_variants(const std::vector<std::pair<std::string, std::strin
 }  // namespace
 
 void bind_results(py::module_& module) {
+  using OthersMay = py::call_guard<py::gil_scoped_release>;
   module.def("read_folder", &read_folder, py::arg("folder"));
   module.def(
       "summary_text", [](const std::string& summary) { return summary_text(Json::parse(summary)); },
       py::arg("summary"));
   module.def("variants_text", &text_of_variants, py::arg("variants"));
-  module.def("results_folders", &folders_in, py::arg("folder"));
-  module.def("compare", &compared, py::arg("folders"), py::arg("baseline"), py::arg("times"));
-  module.def("sweep", &swept, py::arg("folder"), py::arg("most_settings"), py::arg("baseline"));
+  module.def("results_folders", &results_folders, OthersMay(), py::arg("folder"));
+  module.def("compare", &compared, OthersMay(), py::arg("folders"), py::arg("baseline"), py::arg("times"));
+  module.def("sweep", &swept, OthersMay(), py::arg("folder"), py::arg("most_settings"), py::arg("baseline"));
 }
 
 }  // namespace glocal::python

@@ -34,10 +34,13 @@ def test_tables_have_what_the_files_have(results):
         run.step_table["omega"]
 
 
-def test_numbers_of_tables_cannot_be_written_to_by_accident(results):
-    column = results.variants["many"].trial_table["distance_m"]
-    with pytest.raises(ValueError):
-        column[0] = 1
+def test_tables_cannot_be_written_to_by_accident(results):
+    one = results.variants["many"]
+    columns = [one.trial_table["distance_m"], one.trial_table["steps"], one.step_table["on_map"], one.trial_table["outcome"],
+               results.trial_table["distance_m"], results.trial_table["steps"], results.trial_table["variant"]]
+    for column in columns:
+        with pytest.raises(ValueError, match="read-only"):
+            column[0] = column[1]
 
 
 def test_tables_of_variants_say_which_each_row_is_of(results):
@@ -100,6 +103,15 @@ def test_a_comparison_is_that_of_the_program(results, program, tmp_path):
     assert len(list(csv.reader(io.StringIO(comparison.csv)))) > 1
     parts = list(results.variants.values())
     assert glocal.compare(parts, baseline="many", times=False) == comparison
+
+
+def test_a_comparison_finds_results_wherever_the_process_goes(two_variants, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    results = glocal.Experiment.load(two_variants).run("out")
+    there = results.compare(times=False)
+    (tmp_path / "elsewhere").mkdir()
+    monkeypatch.chdir(tmp_path / "elsewhere")
+    assert results.compare(times=False) == there
 
 
 def test_a_comparison_needs_two_runs_and_a_baseline_that_is_there(results):
