@@ -95,7 +95,7 @@ class _Stage(_Strategy):
 
 class _Remembering(_Stage):
     def reset(self) -> None:
-        """Forgets all earlier steps: a trial begins."""
+        """Forgets all earlier steps: a trial begins, or contact is judged anew because scans are noisy."""
 
 
 class LocalMapper(_Remembering):
@@ -103,6 +103,9 @@ class LocalMapper(_Remembering):
 
     kind = "local_mapper"
     abstract = ("add", "map")
+
+    def reset(self) -> None:
+        """Forgets all earlier steps: a trial begins."""
 
     def add(self, observation: Observation) -> None:
         """Takes in an observation; one without hits only moves the robot."""

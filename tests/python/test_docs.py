@@ -79,6 +79,12 @@ def test_the_reference_is_that_of_the_package():
     assert (ROOT / "docs/python-reference.md").read_text() == written.stdout
 
 
+def test_the_reference_has_each_method_once():
+    for section in (ROOT / "docs/python-reference.md").read_text().split("\n### ")[1:]:
+        methods = re.findall(r"^\| `(\w+\()", section, re.MULTILINE)
+        assert len(set(methods)) == len(methods), section.splitlines()[0]
+
+
 def test_kinds_are_those_of_the_package():
     """The table has all base classes, with the methods that a class must have."""
     rows = dict(re.findall(r"^\| (`[A-Z]\w+`(?:, `\w+`)*) \| (.*?) \|", PAGE.read_text(), re.MULTILINE))
