@@ -146,7 +146,9 @@ std::optional<double> stamp_in_name(const fs::path& file) {
     if (name.ends_with(ending)) name.erase(name.rfind('.'));
   }
   const std::size_t before = name.find_last_not_of("0123456789.");
-  const std::string digits = before == std::string::npos ? name : name.substr(before + 1);
+  std::string digits = before == std::string::npos ? name : name.substr(before + 1);
+  // In "frame.000123" the dot parts the number from the name, and is none of its decimals.
+  if (before != std::string::npos) digits.erase(0, digits.find_first_not_of('.'));
   const auto number = number_in(digits);
   if (!number) return std::nullopt;
   // Counts have fewer digits, and so have seconds.

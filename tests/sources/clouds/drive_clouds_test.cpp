@@ -59,7 +59,12 @@ TEST_F(DriveClouds, HaveStampsInTheirNames) {
   EXPECT_DOUBLE_EQ(stamp_in_name("1583836591-182590976.ply.xz").value(), 1583836591.182590976);
   EXPECT_DOUBLE_EQ(stamp_in_name("1418381798123456.bin").value(), 1418381798.123456);
   EXPECT_EQ(stamp_in_name("drive_7_182590976.pcd"), 182590976.0);
-  for (const char* name : {"cloud.pcd", "1.2.3.pcd", ".pcd"}) EXPECT_FALSE(stamp_in_name(name)) << name;
+  // A dot after the name parts the number from it.
+  EXPECT_EQ(stamp_in_name("frame.000123.pcd"), 123.0);
+  EXPECT_EQ(stamp_in_name("cloud.1305031102.175304.ply"), 1305031102.175304);
+  EXPECT_EQ(stamp_in_name(".5.pcd"), 0.5);
+  for (const char* name : {"cloud.pcd", "1.2.3.pcd", ".pcd", "cloud..pcd", "cloud.1.2.3.pcd"})
+    EXPECT_FALSE(stamp_in_name(name)) << name;
 }
 
 TEST_F(DriveClouds, TakeThePosesOfTheNearestStamp) {
@@ -142,6 +147,8 @@ TEST_F(DriveClouds, WithOtherPosesAreRefused) {
 
 TEST_F(DriveClouds, InNoFolderOrWithTheSameNumberAreRefused) {
   EXPECT_THAT(fault(), testing::EndsWith("has no clouds (*.pcd, *.ply, *.bin); give another folder"));
+  write_clouds({"scan.1.pcd", "scan.10.pcd"});
+  EXPECT_EQ(read()[1].stamp, 10.0) << "other numbers";
   write_clouds({"1.pcd", "01.ply"});
   EXPECT_EQ(fault(), "1.pcd: error: has the same number as '01.ply'; remove one of the two");
   files_.folder = folder_ / "none";
