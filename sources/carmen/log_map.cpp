@@ -1,9 +1,9 @@
 #include "sources/carmen/log_map.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -18,18 +18,6 @@ namespace {
 struct PlacedScan {
   Pose2 map_from_robot;
   Scan scan;
-};
-
-struct Box {
-  double min_x = std::numeric_limits<double>::infinity(), min_y = min_x;
-  double max_x = -min_x, max_y = -min_x;
-
-  void include(const Point& p) {
-    min_x = std::min<double>(min_x, p.x);
-    min_y = std::min<double>(min_y, p.y);
-    max_x = std::max<double>(max_x, p.x);
-    max_y = std::max<double>(max_y, p.y);
-  }
 };
 
 struct Count {
@@ -68,23 +56,30 @@ Vector3 take_origin_from(std::vector<PlacedScan>& placed) {
   return origin;
 }
 
-Box extent(const std::vector<PlacedScan>& placed) {
-  Box box;
+Eigen::AlignedBox2d extent(const std::vector<PlacedScan>& placed) {
+  Eigen::AlignedBox2d box;
+  const auto include = [&](const Point& p) { box.extend(Eigen::Vector2d(p.x, p.y)); };
   for (const PlacedScan& p : placed) {
     const Transform map_from_robot(p.map_from_robot);
-    box.include(map_from_robot(p.scan.origin));
-    for (std::size_t i = 0; i < p.scan.hits.size(); ++i) box.include(map_from_robot(p.scan.hits[i]));
-    for (std::size_t i = 0; i < p.scan.free_ends.size(); ++i)
-      box.include(map_from_robot(p.scan.free_ends[i]));
+    include(map_from_robot(p.scan.origin));
+    for (std::size_t i = 0; i < p.scan.hits.size(); ++i) include(map_from_robot(p.scan.hits[i]));
+    for (std::size_t i = 0; i < p.scan.free_ends.size(); ++i) include(map_from_robot(p.scan.free_ends[i]));
   }
   return box;
 }
 
-OccupancyGrid make_grid(const Box& box, double resolution, const std::string& file) {
-  const double x = std::floor(box.min_x / resolution) * resolution;
-  const double y = std::floor(box.min_y / resolution) * resolution;
-  const double width = std::floor((box.max_x - x) / resolution) + 1.0;
-  const double height = std::floor((box.max_y - y) / resolution) + 1.0;
+/// The multiple of the resolution that is next to a coordinate, and not above it.
+double multiple_below(double coordinate, double resolution) {
+  const double multiple = std::floor(coordinate / resolution) * resolution;
+  // The product may be rounded up: 0.7 * floor(-31.5 / 0.7) is above -31.5.
+  return multiple > coordinate ? multiple - resolution : multiple;
+}
+
+OccupancyGrid make_grid(const Eigen::AlignedBox2d& box, double resolution, const std::string& file) {
+  const double x = multiple_below(box.min().x(), resolution);
+  const double y = multiple_below(box.min().y(), resolution);
+  const double width = std::floor((box.max().x() - x) / resolution) + 1.0;
+  const double height = std::floor((box.max().y() - y) / resolution) + 1.0;
   constexpr double most_counted = 64e6;
   if (!(width * height <= most_counted)) {
     throw ConfigError(

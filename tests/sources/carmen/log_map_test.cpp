@@ -47,6 +47,29 @@ TEST(LogMap, CountsHitsAndFreesTheWay) {
   EXPECT_EQ(LogMap(params, {}).load().points.size(), 2U);
 }
 
+TEST(LogMap, BeginsAtOrBelowItsLowestPoint) {
+  const test::TemporaryFolder folder;
+  // 0.7 m * -45 is a hair above -31.5 m: the grid begins a cell before, at -32.2 m. The robot is the lowest
+  // point, and its beam goes through the cells from -31.5 m to the one from -30.1 m, which it hits.
+  const auto load = [&](double x, double y) {
+    auto params =
+        params_for(folder.write("a.log", scan_at(x, y, "2 0.01 1.8") + scan_at(x, y, "2 0.01 1.8")));
+    params.resolution = 0.7;
+    return LogMap(params, {}).load();
+  };
+  const MapData left = load(-31.5, 1.0);
+  EXPECT_NEAR(left.grid.map_from_grid.x, -32.2, 1e-9);
+  ASSERT_EQ(left.points.size(), 1U);
+  EXPECT_NEAR(left.points[0].x, -29.7, 1e-5);
+  for (const double x : {-31.0, -30.3}) EXPECT_EQ(left.grid.at(x, 1.0), Cell::free) << x;
+  EXPECT_EQ(left.grid.at(-29.7, 1.0), Cell::occupied);
+  const MapData low = load(1.0, -31.5);
+  EXPECT_NEAR(low.grid.map_from_grid.y, -32.2, 1e-9);
+  ASSERT_EQ(low.points.size(), 1U);
+  EXPECT_NEAR(low.points[0].x, 2.8, 1e-5);
+  EXPECT_NEAR(low.points[0].y, -31.5, 1e-5);
+}
+
 TEST(LogMap, OfADriveFarAwayIsHeldRelativeToAnOriginNearItsFirstPose) {
   const test::TemporaryFolder folder;
   const auto load = [&](double x, double y) {
