@@ -86,7 +86,7 @@ void to_carmen(const ConvertOptions& options) {
   const auto reader = options.in.open(warn, bar.call());
   AtomicFiles files(options.force);
   files.add(options.out, "");
-  conversion::CarmenDriveWriter writer(options.in.file, sink_of(files, options.out));
+  conversion::CarmenDriveWriter writer(reader->sensors(), options.in.file, sink_of(files, options.out));
   const DriveCounts counts = conversion::pass_on(*reader, writer, options.in.file, warn);
   files.commit();
   tell(counts, options);

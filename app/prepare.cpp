@@ -144,7 +144,7 @@ void write_drive(const PrepareOptions& options, const ReferencePoses& references
     conversion::pass_on(drive, writer, options.log.file, already_told);
     return;
   }
-  conversion::CarmenDriveWriter writer(options.log.file, [&](std::string_view lines) {
+  conversion::CarmenDriveWriter writer(drive.sensors(), options.log.file, [&](std::string_view lines) {
     if (is_interrupted()) throw RunError("interrupted; nothing is left of " + folder.path().string());
     folder.append("drive.log", lines);
   });

@@ -8,7 +8,7 @@
 namespace glocal::carmen {
 
 /// A scan as a ROBOTLASER1 line, which says where each reading looks, after a TRUEPOS line if its reference
-/// pose is known. Readings are written to the millimetre, poses to the micrometre and microradian.
+/// pose is known. Readings and poses read back as they are, stamps are written to the microsecond.
 [[nodiscard]] std::string carmen_lines(const CarmenScan& scan);
 
 }  // namespace glocal::carmen

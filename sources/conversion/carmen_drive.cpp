@@ -77,21 +77,28 @@ bags::LaserScan laser_scan(const CarmenScan& scan, double max_range, const std::
   return out;
 }
 
-CarmenScan carmen_scan(const DriveScan& scan, const std::string& file) {
+CarmenScan carmen_scan(const DriveScan& scan, const DriveSensor& sensor, const std::string& file) {
   const auto* const laser = std::get_if<bags::LaserScan>(&scan.rays);
   if (laser == nullptr)
     throw ConfigError(
         file,
         "has clouds, which cannot be written as a CARMEN log: it has planar scans only; convert to MCAP "
         "or to a folder");
-  const LevelPose level = level_pose(scan, laser->header.frame, file);
+  const LevelPose level = level_pose(scan, sensor.topic, file);
   CarmenScan out;
   out.laser = CarmenLaser::robotlaser1;
   // Angles of floats are good to 1e-7 only.
   out.start_angle = laser->angle_min;
   out.angle_step = laser->angle_increment;
-  out.max_range = std::isfinite(laser->range_max) ? laser->range_max : sick_range;
+  // Some drivers do not say it.
+  const bool has_range = std::isfinite(laser->range_max) && laser->range_max > 0.0F;
+  out.max_range = has_range ? laser->range_max : sick_range;
   for (const float range : laser->ranges) out.ranges.push_back(logged(range, *laser, out.max_range));
+  // A line of a log has at least one reading, and 0 says nothing.
+  if (out.ranges.empty()) {
+    out.ranges = {0.0F};
+    out.angle_step = 1.0;
+  }
   if (level.is_upside_down) {
     out.start_angle = -out.start_angle;
     out.angle_step = -out.angle_step;
@@ -102,7 +109,7 @@ CarmenScan carmen_scan(const DriveScan& scan, const std::string& file) {
     out.angle_step = -out.angle_step;
     std::reverse(out.ranges.begin(), out.ranges.end());
   }
-  if (out.ranges.empty() || !(out.angle_step > 0.0) || std::abs(span) > 2.0 * std::numbers::pi + 1e-6)
+  if (!(out.angle_step > 0.0) || std::abs(span) > 2.0 * std::numbers::pi + 1e-6)
     throw ConfigError(file,
                       fmt::format("a scan has {} readings over {:.1f} deg; a CARMEN log has some, within a "
                                   "turn; convert to MCAP",
@@ -143,7 +150,7 @@ std::optional<DriveScan> CarmenDriveReader::next() {
 
 void CarmenDriveWriter::write(const DriveScan& scan) {
   constexpr std::size_t enough = 1U << 20U;
-  lines_ += carmen::carmen_lines(carmen_scan(scan, file_));
+  lines_ += carmen::carmen_lines(carmen_scan(scan, sensors_[scan.sensor], file_));
   if (lines_.size() >= enough) finish();
 }
 

@@ -23,9 +23,11 @@ inline constexpr double sick_range = 80.0;
                                          const std::string& frame);
 
 /// The scan as a line of ROBOTLASER1, seen from above: a laser mounted upside down is turned over, readings
-/// that met nothing are max_range, and those that say nothing are 0. Throws ConfigError, naming `file`, for
+/// that met nothing are max_range, and those that say nothing are 0. A scan without readings has one that
+/// says nothing, and one without a largest range that of a Sick LMS. Throws ConfigError, naming `file`, for
 /// clouds, a laser that is not level (by more than 1 deg), and scans of more than a turn.
-[[nodiscard]] carmen::CarmenScan carmen_scan(const DriveScan& scan, const std::string& file);
+[[nodiscard]] carmen::CarmenScan carmen_scan(const DriveScan& scan, const DriveSensor& sensor,
+                                             const std::string& file);
 
 /// A log's scans: those of the front laser on /scan, those of the rear one on /scan_rear. The log is held in
 /// memory.
@@ -47,13 +49,15 @@ class CarmenDriveReader final : public DriveReader {
 class CarmenDriveWriter final : public DriveWriter {
  public:
   /// `file`: where the drive comes from, for what is said of it.
-  CarmenDriveWriter(std::string file, std::function<void(std::string_view)> sink)
-      : file_(std::move(file)), sink_(std::move(sink)) {}
+  CarmenDriveWriter(std::vector<DriveSensor> sensors, std::string file,
+                    std::function<void(std::string_view)> sink)
+      : sensors_(std::move(sensors)), file_(std::move(file)), sink_(std::move(sink)) {}
 
   void write(const DriveScan& scan) override;
   void finish() override;
 
  private:
+  std::vector<DriveSensor> sensors_;
   std::string file_;
   std::function<void(std::string_view)> sink_;
   std::string lines_;

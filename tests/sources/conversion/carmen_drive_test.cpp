@@ -49,7 +49,7 @@ class Conversion : public testing::Test {
   std::filesystem::path as_log(const std::filesystem::path& recording, const bags::DriveTopics& choice) {
     RecordingDriveReader reader(recording, choice, bags::Damage::passed_over, warn());
     std::string text;
-    CarmenDriveWriter writer("drive.mcap", [&](std::string_view more) { text += more; });
+    CarmenDriveWriter writer(reader.sensors(), "drive.mcap", [&](std::string_view more) { text += more; });
     counts_ = pass_on(reader, writer, "drive.mcap", warn());
     return folder_.write("back.log", text);
   }
@@ -142,6 +142,8 @@ TEST_F(Conversion, ReadingsThatMetNothingAreInfinite) {
   EXPECT_EQ(laser_scan(scan, 80.0, "laser").range_max, 50.0F) << "what the log says";
 }
 
+const DriveSensor front{"/front", "laser", false, {}};
+
 /// A laser of a robot at the origin.
 DriveScan drive_scan(const Pose3& robot_from_sensor) {
   bags::LaserScan laser;
@@ -159,15 +161,40 @@ DriveScan drive_scan(const Pose3& robot_from_sensor) {
 }
 
 TEST_F(Conversion, LogsHaveTheLargestRangeWhereNothingWasMet) {
-  const CarmenScan scan = carmen_scan(drive_scan({}), "a.bag");
+  const CarmenScan scan = carmen_scan(drive_scan({}), front, "a.bag");
   EXPECT_THAT(scan.ranges, ElementsAre(1.0F, 10.0F, 0.0F, 0.0F, 10.0F));
   EXPECT_EQ(scan.max_range, 10.0);
   EXPECT_EQ(scan.stamp, 5.0);
 }
 
+TEST_F(Conversion, LogsHaveTheRangeOfASickWhereADriverSaysNone) {
+  for (const float range_max : {0.0F, -1.0F, infinite, std::nanf("")}) {
+    DriveScan scan = drive_scan({});
+    std::get<bags::LaserScan>(scan.rays).range_max = range_max;
+    const CarmenScan out = carmen_scan(scan, front, "a.bag");
+    EXPECT_EQ(out.max_range, 80.0) << range_max;
+    EXPECT_THAT(out.ranges, ElementsAre(1.0F, 80.0F, 0.0F, 0.0F, 12.0F)) << range_max;
+  }
+}
+
+TEST_F(Conversion, ScansWithoutReadingsSayNothingInALog) {
+  DriveScan scan = drive_scan({{0.3, 0.0, 0.2}, {0.0, 1.0, 0.0, 0.0}});
+  std::get<bags::LaserScan>(scan.rays).ranges.clear();
+  std::string text;
+  CarmenDriveWriter writer({front}, "a.bag", [&](std::string_view more) { text += more; });
+  writer.write(scan);
+  writer.finish();
+  const auto scans = carmen::read_carmen_log(folder_.write("empty.log", text));
+  ASSERT_EQ(scans.size(), 1U);
+  EXPECT_EQ(scans[0].stamp, 5.0);
+  EXPECT_NEAR(scans[0].robot_from_laser.x, 0.3, 1e-9);
+  const Scan rays = carmen::robot_scan(scans[0], {});
+  EXPECT_EQ(rays.hits.size() + rays.free_ends.size(), 0U);
+}
+
 TEST_F(Conversion, ALaserUpsideDownIsTurnedOver) {
   // Rolled over: what it sees on its left is on the robot's right.
-  const CarmenScan scan = carmen_scan(drive_scan({{0.3, 0.0, 0.2}, {0.0, 1.0, 0.0, 0.0}}), "a.bag");
+  const CarmenScan scan = carmen_scan(drive_scan({{0.3, 0.0, 0.2}, {0.0, 1.0, 0.0, 0.0}}), front, "a.bag");
   EXPECT_THAT(scan.ranges, ElementsAre(10.0F, 0.0F, 0.0F, 10.0F, 1.0F));
   EXPECT_NEAR(scan.start_angle, -2.0, 1e-6);
   EXPECT_NEAR(scan.angle_step, 0.5, 1e-6);
@@ -178,7 +205,7 @@ TEST_F(Conversion, ALaserUpsideDownIsTurnedOver) {
 TEST_F(Conversion, ScansAgainstTheClockAreTurnedRound) {
   DriveScan scan = drive_scan({});
   std::get<bags::LaserScan>(scan.rays).angle_increment = -0.5F;
-  const CarmenScan out = carmen_scan(scan, "a.bag");
+  const CarmenScan out = carmen_scan(scan, front, "a.bag");
   EXPECT_NEAR(out.start_angle, -2.0, 1e-6);
   EXPECT_NEAR(out.angle_step, 0.5, 1e-6);
   EXPECT_EQ(out.ranges.back(), 1.0F);
@@ -186,10 +213,10 @@ TEST_F(Conversion, ScansAgainstTheClockAreTurnedRound) {
 
 TEST_F(Conversion, LogsHaveLevelLasersOnly) {
   const auto fault = [&](const DriveScan& scan) {
-    return test::config_error(folder_.path(), [&] { static_cast<void>(carmen_scan(scan, "a.bag")); });
+    return test::config_error(folder_.path(), [&] { static_cast<void>(carmen_scan(scan, front, "a.bag")); });
   };
   EXPECT_EQ(fault(drive_scan(Pose3(exponential({0.0, radians(20.0), 0.0})))),
-            "a.bag: error: the sensor of laser is tilted by 20.0 deg, and lasers of a CARMEN log are level; "
+            "a.bag: error: the sensor of /front is tilted by 20.0 deg, and lasers of a CARMEN log are level; "
             "convert to MCAP, or choose another topic with --scans");
   EXPECT_EQ(fault(drive_scan(Pose3(exponential({radians(0.5), 0.0, 0.0})))), "");
   DriveScan cloud = drive_scan({});
