@@ -16,7 +16,8 @@ void describe(ParamVisitor& v, LaserParams& p) {
            .unit = "m",
            .max = 1000.0,
            .above = 0.0});
-  v.field("noise", p.noise, {.doc = "Standard deviation of a reading.", .unit = "m", .min = 0.0});
+  v.field("noise", p.noise,
+          {.doc = "Standard deviation of a reading.", .unit = "m", .min = 0.0, .max = 10.0});
   v.require(p.step_deg <= p.fov_deg, "step_deg", "must not be above fov_deg");
 }
 

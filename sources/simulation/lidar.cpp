@@ -20,7 +20,7 @@ void describe(ParamVisitor& v, LidarParams& p) {
           {.doc = "Angle from ray to ray of a beam.", .unit = "deg", .min = 0.01, .max = 180.0});
   v.field("max_range", p.max_range,
           {.doc = "What is farther away is not seen.", .unit = "m", .max = 1000.0, .above = 0.0});
-  v.field("noise", p.noise, {.doc = "Standard deviation of a range.", .unit = "m", .min = 0.0});
+  v.field("noise", p.noise, {.doc = "Standard deviation of a range.", .unit = "m", .min = 0.0, .max = 10.0});
   v.field("height", p.height,
           {.doc = "Height of the sensor over the floor.", .unit = "m", .max = 100.0, .above = 0.0});
   v.field("scan_time", p.scan_time,

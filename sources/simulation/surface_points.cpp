@@ -86,6 +86,13 @@ double area_of(const Shapes& shapes) {
   return area;
 }
 
+/// How many points floor and ceiling have: none in a world with a cloud.
+double floor_points(const World& world, const OccupancyGrid& plan) {
+  if (!world.cloud.text.empty()) return 0.0;
+  const auto free = static_cast<double>(std::count(plan.cells.begin(), plan.cells.end(), Cell::free));
+  return world.ceiling > 0.0 ? 2.0 * free : free;
+}
+
 void add_floor(const World& world, const OccupancyGrid& plan, SurfacePainter& painter) {
   for_each_cell(plan, [&](int column, int row) {
     if (plan.cell(column, row) != Cell::free) return;
@@ -110,11 +117,11 @@ Points surface_points(const World& world, const OccupancyGrid& plan, const std::
   const double spacing = side / 2.0;  // so that no cube on a surface is missed
   const Shapes shapes = shapes_on_map(world);
   constexpr double most_points = 16e6;
-  if (!(area_of(shapes) / (spacing * spacing) <= most_points)) {
+  if (!(area_of(shapes) / (spacing * spacing) + floor_points(world, plan) <= most_points)) {
     throw ConfigError(file,
-                      fmt::format("its surfaces would have more than 16 million points {} m apart; raise "
-                                  "resolution",
-                                  spacing));
+                      fmt::format("its surfaces would have more than 16 million points at a resolution of "
+                                  "{} m; raise resolution",
+                                  side));
   }
   SurfacePainter things(world.floor, spacing);
   for (const Segment& segment : shapes.segments) things.draw(segment);

@@ -64,9 +64,10 @@ class Raster {
   }
 
   /// Frees everything that can be reached from a place without crossing an outline, run by run: what is still
-  /// to be looked at would else take more memory than the grid.
-  void flood(const Position& from) {
+  /// to be looked at would else take more memory than the grid. False if there is nothing to free.
+  bool flood(const Position& from) {
     std::vector<std::array<int, 2>> open{{column_of(from[0]), row_of(from[1])}};
+    if (!is_unknown(open[0][0], open[0][1])) return false;
     while (!open.empty()) {
       const auto [column, row] = open.back();
       open.pop_back();
@@ -83,6 +84,7 @@ class Raster {
         }
       }
     }
+    return true;
   }
 
   void forget(const UnmappedArea& area) {
@@ -212,7 +214,10 @@ OccupancyGrid plan_of(const World& world, double resolution, const std::string& 
 OccupancyGrid reality_of(const World& world) {
   const double coarse_resolution = std::sqrt(world.size[0] * world.size[1] / most_cells);
   Raster raster = drawn(world, shapes_in_reality(world), std::max(fine_resolution, coarse_resolution));
-  raster.flood(world.way_points.front());
+  // Cells of large worlds are so coarse that the first way points may lie in those of a wall.
+  for (const Position& place : world.way_points) {
+    if (raster.flood(place)) break;
+  }
   return raster.take();
 }
 

@@ -17,7 +17,8 @@ namespace glocal::simulation {
 [[nodiscard]] OccupancyGrid plan_of(const World& world, double resolution, const std::string& origin);
 
 /// What is there in reality but for people and a cloud, in the same way; free space is where the drive
-/// begins. Cells have a side of 0.05 m, or more in worlds of over a hectare.
+/// begins: around its first way point that is in no cell of an outline. Cells have a side of 0.05 m, or more
+/// in worlds of over a hectare.
 [[nodiscard]] OccupancyGrid reality_of(const World& world);
 
 /// The voxels of a world's cloud. Throws ConfigError if that is none, or too large.

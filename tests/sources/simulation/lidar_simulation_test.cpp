@@ -303,6 +303,8 @@ TEST_F(LidarDrive, SaysWhatIsWrong) {
   EXPECT_THAT(fault("lidar: {beams: 16, vertical_fov_deg: [15, -15]}\n"),
               HasSubstr("vertical_fov_deg: must be rising"));
   EXPECT_THAT(fault("lidar: {beams: 16, max_range: 0.3}\n"), HasSubstr("max_range: must be above 0.5 m"));
+  EXPECT_THAT(fault("lidar: {beams: 16, noise: 1e6}\n"),
+              HasSubstr("noise: 1e6 is out of range, must be >= 0 and <= 10 m"));
   EXPECT_THAT(fault("lidar: {beams: 16, scan_time: 2}\n"),
               HasSubstr("scan_time must be at most step_seconds"));
   EXPECT_THAT(fault("lidar: {beams: 16, height: 3}\n"), HasSubstr("is not below the ceiling of 2.5 m"));
@@ -375,10 +377,21 @@ TEST(SimulatedMapInSpace, ShowsWhatIsOnTheMapOnly) {
 TEST(SimulatedMapInSpace, RefusesTooManyPoints) {
   const test::TemporaryFolder folder;
   const std::filesystem::path world = folder.write("world.yaml", room);
-  EXPECT_THAT(
-      test::config_error(world.parent_path(), [&] { static_cast<void>(load(world, 0.003)); }),
-      HasSubstr("world.yaml: error: its surfaces would have more than 16 million points 0.0015 m apart; "
-                "raise resolution"));
+  const auto fault = [&](const std::filesystem::path& file, double resolution) {
+    return test::config_error(folder.path(), [&] { static_cast<void>(load(file, resolution)); });
+  };
+  EXPECT_EQ(
+      fault(world, 0.003),
+      "world.yaml: error: its surfaces would have more than 16 million points at a resolution of 0.003 m; "
+      "raise resolution");
+  // A floor of 300 m x 300 m is 9 million cells, and there is a ceiling, too.
+  const std::string hall =
+      "size: [300, 300]\nwalls: [{points: [[1, 1], [2, 1]]}]\nfree_from: [[5, 5]]\n"
+      "way_points: [[5, 5], [6, 5]]\nceiling: 3\n";
+  EXPECT_EQ(fault(folder.write("hall.yaml", hall), 0.1),
+            "hall.yaml: error: its surfaces would have more than 16 million points at a resolution of 0.1 m; "
+            "raise resolution");
+  EXPECT_EQ(load(folder / "hall.yaml", 0.5).grid.width, 601);
 }
 
 TEST(SimulatedMapInSpace, HasTheCloudAsItIs) {

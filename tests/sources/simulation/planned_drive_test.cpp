@@ -467,6 +467,8 @@ TEST(DriveParams, AreOfAWorldOrOfAMap) {
   EXPECT_EQ(fault_in("world: world.yaml\nboxes: 3\npeople: 2\n"), "");
   EXPECT_EQ(fault_in("map: map.yaml\ntour_legs: 3\n"), "");
   EXPECT_EQ(fault_in("map: map.yaml\nway_points: [[1, 1], [2, 1]]\n"), "");
+  expect_fault("world: world.yaml\nlaser: {noise: 11}\n",
+               "noise: 11 is out of range, must be >= 0 and <= 10 m");
   expect_fault("tour_legs: 3\n",
                "world: must be given, or map in its place: a robot drives in one of the two");
   expect_fault("world: world.yaml\nmap: map.yaml\ntour_legs: 3\n",

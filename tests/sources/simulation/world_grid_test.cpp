@@ -137,6 +137,35 @@ TEST_F(CloudFloor, HasToBeThereAndNotTooLarge) {
             "leave out boxes and people, drive less far, or take larger voxels");
 }
 
+/// A world of 1 km x 1 km, so that cells of its reality have a side of 0.5 m, centred on multiples of that.
+OccupancyGrid coarse_reality(const std::string& walls_and_way) {
+  const test::TemporaryFolder folder;
+  const OccupancyGrid grid = reality_of(
+      read_world(folder.write("world.yaml", "size: [1000, 1000]\nfree_from: [[20, 500]]\n" + walls_and_way)));
+  EXPECT_EQ(grid.resolution, 0.5);
+  return grid;
+}
+
+TEST(RealityOf, MayBeginInTheCellOfAWall) {
+  // Wall and first way point are in the cell from x = 9.75 m to 10.25 m.
+  const OccupancyGrid grid = coarse_reality(
+      "walls: [{points: [[9.8, 0], [9.8, 1000]]}]\nway_points: [[10.2, 500], [20, 500], [30, 500]]\n");
+  EXPECT_EQ(grid.at(10.2, 500.0), Cell::occupied);
+  EXPECT_EQ(grid.at(20.0, 500.0), Cell::free);
+  EXPECT_EQ(grid.at(990.0, 10.0), Cell::free);
+  EXPECT_EQ(grid.at(5.0, 500.0), Cell::unknown) << "behind the wall";
+}
+
+TEST(RealityOf, IsFreeWhereTheDriveBegins) {
+  // The door of 0.4 m is within one cell, from y = 499.75 m to 500.25 m.
+  const OccupancyGrid grid = coarse_reality(
+      "walls: [{points: [[100, 0], [100, 499.8]]}, {points: [[100, 500.2], [100, 1000]]}]\n"
+      "way_points: [[20, 500], [200, 500]]\n");
+  EXPECT_EQ(grid.at(20.0, 500.0), Cell::free);
+  EXPECT_EQ(grid.at(100.0, 500.0), Cell::occupied);
+  EXPECT_EQ(grid.at(200.0, 500.0), Cell::unknown);
+}
+
 TEST(FloorNear, IsMostOfARealCorridor) {
   const auto octree = test::dataset("octomap/geb079.bt");
   if (octree.empty()) GTEST_SKIP() << "GLOCAL_DATASETS is not set";
