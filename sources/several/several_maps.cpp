@@ -77,6 +77,7 @@ class SideBySide {
     if (all_.parts.empty()) begin(name, map, lattice);
     require_alike(name, map, lattice);
     all_.resolution = std::max(all_.resolution, map.resolution);
+    resolutions_.emplace_back(name, map.resolution);
     const int shift = all_.parts.empty() ? 0 : end_ + between() - columns.first;
     const Pose2 at{corner_.x + shift * lattice_.side, corner_.y, 0.0};
     const Pose2 common_from_map = at * inverse(lattice.map_from_lattice);
@@ -120,12 +121,14 @@ class SideBySide {
       fail(fmt::format("'{}' has {} of {:g} m, and '{}' of {:g} m; make them anew with the same", name,
                        to_string(lattice.kind), lattice.side, first_, lattice_.side));
     constexpr double alike = 1.5;
-    const auto [finer, coarser] = std::minmax(map.resolution, all_.resolution);
-    if (finer > 0.0 && coarser > alike * finer)
-      fail(
-          fmt::format("points of '{}' lie {:g} m apart, and those of '{}' {:g} m; make them anew with like "
-                      "distances",
-                      name, map.resolution, first_, all_.resolution));
+    for (const auto& [other, resolution] : resolutions_) {
+      const auto [finer, coarser] = std::minmax(map.resolution, resolution);
+      if (finer > 0.0 && coarser > alike * finer)
+        fail(
+            fmt::format("points of '{}' lie {:g} m apart, and those of '{}' {:g} m; make them anew with like "
+                        "distances",
+                        name, map.resolution, other, resolution));
+    }
     if (map.normals.empty() == has_normals_)
       fail(fmt::format("only one of '{}' and '{}' has normals; give them for both, or for none", name,
                        first_));
@@ -167,8 +170,9 @@ class SideBySide {
 
   MapData all_;
   std::string first_;
-  Lattice lattice_;  ///< Of the first.
-  Pose2 corner_;     ///< Of the common lattice, which is not turned.
+  std::vector<std::pair<std::string, double>> resolutions_;  ///< Of each map, by its name.
+  Lattice lattice_;                                          ///< Of the first.
+  Pose2 corner_;                                             ///< Of the common lattice, which is not turned.
   bool has_normals_ = false;
   int end_ = 0;  ///< Column beyond the last map.
   std::vector<PlacedGrid> grids_;

@@ -183,6 +183,25 @@ TEST(SeveralMaps, RefusesCloudsOfOtherDensitiesInEitherOrder) {
   EXPECT_EQ(joined({coarse, fine}).resolution, 0.06);
 }
 
+TEST(SeveralMaps, ComparesDensitiesOfAllClouds) {
+  const auto clouds = [](const std::vector<double>& resolutions) {
+    std::vector<MapData> maps;
+    for (const double resolution : resolutions) {
+      maps.push_back(small_map({0, 0, 0}));
+      maps.back().grid = {};
+      maps.back().resolution = resolution;
+    }
+    return maps;
+  };
+  EXPECT_EQ(refused(clouds({0.10, 0.14, 0.20})),
+            "error: points of 'floor 2' lie 0.2 m apart, and those of 'floor 0' 0.1 m; make them anew with "
+            "like distances");
+  EXPECT_EQ(refused(clouds({0.14, 0.20, 0.10})),
+            "error: points of 'floor 2' lie 0.1 m apart, and those of 'floor 1' 0.2 m; make them anew with "
+            "like distances");
+  EXPECT_EQ(joined(clouds({0.14, 0.0, 0.20})).resolution, 0.20) << "of one nothing is known";
+}
+
 TEST(SeveralMaps, RefusesCellsBesideACloud) {
   MapData cloud = small_map({0, 0, 0});
   cloud.grid = {};
