@@ -119,16 +119,17 @@ std::vector<Cluster> split_all(std::vector<Item<Pose>> items, const Limits& limi
 }  // namespace
 
 void describe(ParamVisitor& v, HierarchicalKmeans::Params& p) {
+  constexpr double least_variance = 1e-12;  // distances are divided by it, and stay finite
   v.field("max_variance_translation", p.max_variance_translation,
           {.doc = "A cluster whose variance along x, y or z is larger is split.",
            .unit = "m^2",
-           .above = 0.0,
+           .min = least_variance,
            .audience = Audience::tuner});
   v.field(
       "max_variance_rotation_deg2", p.max_variance_rotation_deg2,
       {.doc = "A cluster whose variance of heading, or of rotation about another axis, is larger is split.",
        .unit = "deg^2",
-       .above = 0.0,
+       .min = least_variance,
        .audience = Audience::tuner});
 }
 

@@ -6,6 +6,9 @@
 #include <numbers>
 #include <vector>
 
+#include "files.hpp"
+#include "glocal/yaml.hpp"
+
 namespace glocal::clustering::hierarchical_kmeans_test {
 namespace {
 
@@ -58,6 +61,27 @@ TEST(HierarchicalKmeans, LimitsBelowRoundingComeToAnEnd) {
   two.push_back(at(0.0, 0.0, 0.0));
   EXPECT_EQ(cluster(two, {.max_variance_translation = 1e-300, .max_variance_rotation_deg2 = 1e-300}).size(),
             2U);
+}
+
+TEST(HierarchicalKmeans, LimitsThatCannotBeDividedByAreRefused) {
+  const test::TemporaryFolder folder;
+  const auto fault = [&](const std::string& yaml) {
+    return test::config_error(folder.path(), [&] {
+      ParamsOf<HierarchicalKmeans::Params> params;
+      read_yaml(folder.write("params.yaml", yaml), params);
+    });
+  };
+  EXPECT_EQ(fault("max_variance_translation: 1e-12\nmax_variance_rotation_deg2: 1e-12\n"), "");
+  EXPECT_EQ(
+      fault("max_variance_translation: 1e-309\n"),
+      "params.yaml:1:27: error: max_variance_translation: 1e-309 is out of range, must be >= 1e-12 m^2");
+  EXPECT_EQ(
+      fault("max_variance_rotation_deg2: 1e-306\n"),
+      "params.yaml:1:29: error: max_variance_rotation_deg2: 1e-306 is out of range, must be >= 1e-12 deg^2");
+  // The least ones are those with which poses can still be told apart, also where they only differ in one.
+  const HierarchicalKmeans::Params least{.max_variance_translation = 1e-12,
+                                         .max_variance_rotation_deg2 = 1e-12};
+  EXPECT_EQ(cluster({at(0, 0, 0), at(1, 0, 0), at(1, 0, 0.1)}, least).size(), 3U);
 }
 
 TEST(HierarchicalKmeans, OppositeHeadingsAtOnePlaceAreTwoClusters) {
