@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <span>
+#include <type_traits>
 
 #include "clustering/density_labels.hpp"
 #include "clustering/pose_groups.hpp"
@@ -32,63 +33,43 @@ struct Kernel {
   }
 };
 
-/// A difference of poses in the map's axes.
+/// A difference of poses in the map's axes: the way, then the turn.
 template <class Pose>
-struct Shift;
+using Shift = Eigen::Matrix<double, std::is_same_v<Pose, Pose2> ? 3 : 6, 1>;
 
-template <>
-struct Shift<Pose2> {
-  double x = 0.0, y = 0.0, theta = 0.0;
+Shift<Pose2> shift_between(const Pose2& from, const Pose2& to) {
+  return {to.x - from.x, to.y - from.y, wrap_angle(to.theta - from.theta)};
+}
+Shift<Pose3> shift_between(const Pose3& from, const Pose3& to) {
+  Shift<Pose3> shift;
+  shift << to.translation() - from.translation(), logarithm(composed(to.rotation, from.rotation.conjugate()));
+  return shift;
+}
 
-  Shift() = default;
-  Shift(const Pose2& from, const Pose2& to)
-      : x(to.x - from.x), y(to.y - from.y), theta(wrap_angle(to.theta - from.theta)) {}
+double squared(const Shift<Pose2>& shift, const PoseRadius& unit) {
+  return (shift.x() * shift.x() + shift.y() * shift.y()) / (unit.translation * unit.translation) +
+         shift.z() * shift.z() / (unit.rotation * unit.rotation);
+}
+double squared(const Shift<Pose3>& shift, const PoseRadius& unit) {
+  const double translation = shift.head<3>().norm() / unit.translation;
+  const double rotation = shift.tail<3>().norm() / unit.rotation;
+  return translation * translation + rotation * rotation;
+}
 
-  [[nodiscard]] double squared(const PoseRadius& unit) const {
-    return (x * x + y * y) / (unit.translation * unit.translation) +
-           theta * theta / (unit.rotation * unit.rotation);
-  }
-  void add(const Shift& other, double weight) {
-    x += weight * other.x;
-    y += weight * other.y;
-    theta += weight * other.theta;
-  }
-  void divide(double by) {
-    x /= by;
-    y /= by;
-    theta /= by;
-  }
-  [[nodiscard]] Pose2 from(const Pose2& pose) const {
-    return {pose.x + x, pose.y + y, wrap_angle(pose.theta + theta)};
-  }
-};
+// One divides and the other multiplies, as results of earlier versions do to the last bit.
+void divide(Shift<Pose2>& shift, double by) {
+  shift /= by;
+}
+void divide(Shift<Pose3>& shift, double by) {
+  shift *= 1.0 / by;
+}
 
-template <>
-struct Shift<Pose3> {
-  Vector3 way = Vector3::Zero(), turn = Vector3::Zero();
-
-  Shift() = default;
-  Shift(const Pose3& from, const Pose3& to)
-      : way(to.translation() - from.translation()),
-        turn(logarithm(composed(to.rotation, from.rotation.conjugate()))) {}
-
-  [[nodiscard]] double squared(const PoseRadius& unit) const {
-    const double translation = way.norm() / unit.translation;
-    const double rotation = turn.norm() / unit.rotation;
-    return translation * translation + rotation * rotation;
-  }
-  void add(const Shift& other, double weight) {
-    way += weight * other.way;
-    turn += weight * other.turn;
-  }
-  void divide(double by) {
-    way *= 1.0 / by;
-    turn *= 1.0 / by;
-  }
-  [[nodiscard]] Pose3 from(const Pose3& pose) const {
-    return {pose.translation() + way, composed(exponential(turn), pose.rotation)};
-  }
-};
+Pose2 moved_by(const Pose2& pose, const Shift<Pose2>& shift) {
+  return {pose.x + shift.x(), pose.y + shift.y(), wrap_angle(pose.theta + shift.z())};
+}
+Pose3 moved_by(const Pose3& pose, const Shift<Pose3>& shift) {
+  return {pose.translation() + shift.head<3>(), composed(exponential(shift.tail<3>()), pose.rotation)};
+}
 
 /// Hypotheses that climb together.
 template <class Pose>
@@ -104,14 +85,14 @@ Climbers<Pose> gather(const Together& together, std::span<const Pose> poses,
   Climbers<Pose> result;
   for (std::size_t c = 0; c < together.size(); ++c) {
     const Pose& first = poses[together.members(c).front()];
-    Shift<Pose> mean;
+    Shift<Pose> mean = Shift<Pose>::Zero();
     double weight = 0.0;
     for (const std::size_t i : together.members(c)) {
-      mean.add(Shift<Pose>(first, poses[i]), weights[i]);
+      mean += weights[i] * shift_between(first, poses[i]);
       weight += weights[i];
     }
-    mean.divide(weight);
-    result.poses.push_back(mean.from(first));
+    divide(mean, weight);
+    result.poses.push_back(moved_by(first, mean));
     result.weights.push_back(weight);
   }
   return result;
@@ -140,18 +121,18 @@ void visit_around(const PoseGroups& groups, const Pose3& pose, const PoseRadius&
 template <class Pose, class Together>
 Shift<Pose> mean_shift(const Pose& pose, const Climbers<Pose>& all, const Together& together,
                        const Kernel& kernel) {
-  Shift<Pose> mean;
+  Shift<Pose> mean = Shift<Pose>::Zero();
   double weights = 0.0;
   visit_around(together, pose, kernel.radius(), [&](std::size_t c) {
     for (const std::size_t i : together.members(c)) {
-      const Shift<Pose> shift(pose, all.poses[i]);
-      const double weight = all.weights[i] * kernel.weight(shift.squared(kernel.bandwidth));
-      mean.add(shift, weight);
+      const Shift<Pose> shift = shift_between(pose, all.poses[i]);
+      const double weight = all.weights[i] * kernel.weight(squared(shift, kernel.bandwidth));
+      mean += weight * shift;
       weights += weight;
     }
     return true;
   });
-  if (weights > 0.0) mean.divide(weights);
+  if (weights > 0.0) divide(mean, weights);
   return mean;
 }
 
@@ -165,8 +146,8 @@ std::vector<Pose> modes_of(const Climbers<Pose>& climbers, const Kernel& kernel)
   for (Pose& mode : modes) {
     for (int i = 0; i < most_steps; ++i) {
       const Shift<Pose> shift = mean_shift(mode, climbers, together, kernel);
-      mode = shift.from(mode);
-      if (shift.squared(kernel.bandwidth) < still * still) break;
+      mode = moved_by(mode, shift);
+      if (squared(shift, kernel.bandwidth) < still * still) break;
     }
   }
   return modes;
