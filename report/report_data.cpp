@@ -156,9 +156,10 @@ void ReportData::share_limits() {
   }
 }
 
-void ReportData::add_run(PageData& page, const Run& run, const std::string& name) {
-  Json json = {{"name", name},
-               {"folder", run.folder.string()},
+void ReportData::add_run(PageData& page, const Run& run, const NamedRun& named) {
+  // Where its files were read may have been a place for the moment only.
+  Json json = {{"name", named.name},
+               {"folder", named.results.folder.string()},
                {"summary", run.summary},
                {"provenance", run.provenance},
                {"settings", glocal::to_json(run.settings)}};
@@ -194,7 +195,7 @@ PageData ReportData::page_data(const std::vector<NamedRun>& runs, std::size_t ba
   Json& head = page.head;
   head["maps"] = maps_;
   head["runs"] = Json::array();
-  for (std::size_t i = 0; i < runs_.size(); ++i) add_run(page, runs_[i], runs[i].name);
+  for (std::size_t i = 0; i < runs_.size(); ++i) add_run(page, runs_[i], runs[i]);
   if (runs_.size() < 2) return page;
   if (is_sweep(runs)) {
     const std::string setting = baseline > 0 ? sweep_of(runs)[baseline].part.setting : "";

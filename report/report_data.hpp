@@ -66,7 +66,7 @@ class ReportData {
   void read_recordings(Run& run, std::size_t number, FaultCollector& faults);
   void share_limits();
   [[nodiscard]] static nlohmann::ordered_json chunk_of(const Trial& trial);
-  static void add_run(PageData& page, const Run& run, const std::string& name);
+  static void add_run(PageData& page, const Run& run, const NamedRun& named);
 
   ReportLimits limits_;
   std::vector<Run> runs_;

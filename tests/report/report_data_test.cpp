@@ -117,6 +117,15 @@ TEST_F(ReportDataTest, IsAllThatTheRunLeft) {
   EXPECT_FALSE(second.contains("scans"));
 }
 
+TEST_F(ReportDataTest, NamesTheFolderThatWasGivenWhereverItsFilesWereRead) {
+  ReportData data({});
+  NamedRun run{"shards", data.add(folder_ / "a")};
+  run.results.folder = "results/shards";
+  const Json told = data.page_data({run}, 0).head["runs"][0];
+  EXPECT_EQ(told["name"], "shards");
+  EXPECT_EQ(told["folder"], "results/shards");
+}
+
 TEST_F(ReportDataTest, HasNoMoreDigitsOfTrialsThanAreRead) {
   folder_.write("a/trials.jsonl", trial(0, 3, 1.0 / 3.0) + trial(1, 1, 5.0));
   const Json start = data({"a"})["runs"][0]["trials"][0]["start"];
