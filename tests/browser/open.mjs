@@ -76,6 +76,11 @@ export async function moveSlider(page, step) {
   await drawn(page);
 }
 
+/** Whether the page keeps a key from the browser. */
+export function isTaken(page, key) {
+  return page.evaluate((key) => !document.body.dispatchEvent(new KeyboardEvent("keydown", { ...key, bubbles: true, cancelable: true })), key);
+}
+
 /** Waits until what was asked for has been loaded and drawn. */
 export async function drawn(page) {
   await page.waitForFunction(() => document.body.dataset.loading === undefined);

@@ -8,7 +8,7 @@ import { pathToFileURL } from "node:url";
 import { workFolder } from "./runs.mjs";
 
 const page = process.env.GLOCAL_PAGE_FOLDER; // as it was built
-let geometry, numbers, shares, shown, view, files, background, boxes, certificate, answers, svg, spacePoses, comparison, lost, board;
+let geometry, numbers, shares, shown, view, files, background, boxes, certificate, answers, svg, spacePoses, comparison, lost, board, store, missing;
 
 before(async () => {
   const { build } = createRequire(join(page, "package.json"))("esbuild");
@@ -20,9 +20,9 @@ before(async () => {
   };
   const names = [
     "geometry", "numbers", "shares", "candidates_shown", "field_of_view", "export", "map_background",
-    "boxes", "certificate", "answers", "svg", "space_poses", "comparison", "board_lost", "board_data",
+    "boxes", "certificate", "answers", "svg", "space_poses", "comparison", "board_lost", "board_data", "store", "missing",
   ];
-  [geometry, numbers, shares, shown, view, files, background, boxes, certificate, answers, svg, spacePoses, comparison, lost, board] =
+  [geometry, numbers, shares, shown, view, files, background, boxes, certificate, answers, svg, spacePoses, comparison, lost, board, store, missing] =
     await Promise.all(names.map(load));
 });
 
@@ -138,6 +138,13 @@ test("certificates are told with what they prove, and what they do not", () => {
   const refuted = certificate.verificationSentence({ ...verification, refuted: true, rivals: [rival], certificate: undefined });
   assert.match(refuted, /^Refuted\. The search of the whole map was given up, so nothing is proved\./);
   assert.match(refuted, /One rival was found; the best, at 3\.0 m, -1\.5 m, has score 0\.780, and 0\.750 is enough to refute/);
+  // What refutes a pose need not be a rival.
+  const worse = certificate.verificationSentence({ ...verification, refuted: true, rivals: [{ ...rival, score: 0.7 }] });
+  assert.match(worse, /^Refuted\. .* has score 0\.700, less than the 0\.750 that would refute the declared pose/);
+  // Results list the five best, however many there are.
+  const told = (count) => certificate.verificationSentence({ ...verification, rivals: Array(count).fill(rival) });
+  assert.match(told(4), / 4 rivals were found;/);
+  assert.match(told(5), / At least 5 rivals were found;/);
 });
 
 const trial = (outcome, steps = 1) => ({ outcome, steps, start: {} });
@@ -179,6 +186,17 @@ test("the best come first: right less wrong, then fewer steps, and by nothing th
   assert.deepEqual(order([...runs, hard("slow", "right"), hard("none", "wrong")]), ["slow", "none", "quick", "wrong"]);
   const { steps, right, undecided } = answers.answerOf(answers.groupOf("slow", [runs[1]]));
   assert.deepEqual([steps, right, undecided], [7, 2, 1]);
+});
+
+test("the time of a step is that of all steps where a run's summary tells it", () => {
+  const timed = (summary) => ({ ...run("a", null, [trial("right")]), step_ms: [1, 2, 9], timed_steps: 3, summary });
+  const of = (...runs) => answers.answerOf(answers.groupOf("a", runs)).step_ms;
+  const summary = { complete: true, steps: 400, step_ms: { median: 2.5 } };
+  assert.equal(of(timed(summary)), 2.5);
+  assert.equal(of({ ...timed(summary), step_ms: [], timed_steps: 0 }), 2.5);
+  // Medians of several runs are none of all their steps.
+  assert.equal(of(timed(summary), timed(summary)), 2);
+  assert.equal(of({ ...timed({ ...summary, steps: 0 }), step_ms: [] }), null);
 });
 
 test("runs are found by words of their names and of what they set otherwise", () => {
@@ -235,6 +253,32 @@ test("addresses of lost starts come back, whatever is in their names", () => {
   const asked = { suite: "small@1", method: "a&by=b #1%", case: "", by: "<i>" };
   assert.deepEqual(board.askedIn(board.linkTo(asked)), asked);
   assert.equal(board.askedIn("#suite-0"), null);
+});
+
+test("a trial that is chosen is shown, whatever moves the steps until it is loaded", async () => {
+  globalThis.document = { body: { dataset: {} } };
+  const steps = (length) => ({ step: Array.from({ length }, (_, i) => i), verdict: Array(length).fill("searching") });
+  const trials = [{ ...trial("right"), columns: steps(9) }, { ...trial("right"), chunk: 0 }, { ...trial("right"), chunk: 1 }];
+  let loaded;
+  const chunks = { load: (its) => new Promise((resolve, reject) => (loaded = (columns) => (columns ? resolve(Object.assign(its, { columns, chunk: undefined })) : reject(new Error("no steps"))))) };
+  const page = new store.Store({ maps: [], runs: [{ trials }] }, chunks);
+  await page.open();
+  const choose = async (index, columns) => {
+    page.chooseTrial(index);
+    page.chooseStep(3);
+    page.chooseHypothesis("reference");
+    loaded(columns);
+    await new Promise((resolve) => setTimeout(resolve));
+    return page.selected;
+  };
+  assert.deepEqual(await choose(1, steps(5)), { run: 0, trial: 1, step: 4, hypothesis: "estimate" });
+  page.chooseStep(3);
+  assert.equal(page.selected.step, 3);
+  assert.deepEqual(missing.whatIsMissing({ map: {}, trial: page.trial, steps: page.steps, fault: page.fault }), []);
+  // Nor does it stop where nothing comes.
+  assert.deepEqual(await choose(2), { run: 0, trial: 2, step: 0, hypothesis: "estimate" });
+  assert.deepEqual(missing.whatIsMissing({ map: {}, trial: page.trial, steps: page.steps, fault: page.fault }), ["no steps."]);
+  delete globalThis.document;
 });
 
 test("poses in space are read from their columns", () => {

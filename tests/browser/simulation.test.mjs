@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { statSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { colourAt, drawn, mapView, moveSlider, open, painted, showOnly, skip, testsOn } from "./open.mjs";
+import { colourAt, drawn, isTaken, mapView, moveSlider, open, painted, showOnly, skip, testsOn } from "./open.mjs";
 import { readPcd, report, runExperiment, stepsOf, trialsOf, workFolder } from "./runs.mjs";
 import { saved } from "./saved.mjs";
 import { checkClusters, checkNumbers, checkRobot, checkSteps } from "./steps_check.mjs";
@@ -182,6 +182,9 @@ test("keys move the step, and play goes on by itself", { skip }, async () => {
   await page.keyboard.press("End");
   assert.equal(await step(), 135);
   await checkNumbers(page, steps[135]);
+  // With Ctrl they are the browser's, which has its own sizes and ends.
+  for (const key of ["0", "+", "-", "Home", "f"]) assert.equal(await isTaken(page, { key, ctrlKey: true }), false, key);
+  assert.equal(await step(), 135);
   await page.keyboard.press("Home");
   await page.keyboard.press("Space");
   await page.waitForFunction(() => Number(document.body.dataset.step) >= 3);

@@ -1,6 +1,6 @@
 // A drive with a 3-D lidar in a simulated hall, seen in space.
 import assert from "node:assert/strict";
-import { readFileSync, statSync } from "node:fs";
+import { cpSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { assertAccessibleInBoth } from "./accessible.mjs";
@@ -162,6 +162,31 @@ test("in space the view turns by dragging, and heights can be cut", { skip }, as
   });
   await drawn(page);
   assert.ok((await highPixels()) < 0.05 * all);
+});
+
+test("the slider of heights has its keys for itself", { skip }, async () => {
+  await moveSlider(page, 1);
+  await showAllHeights();
+  await page.locator(".cut input").focus();
+  await page.keyboard.press("ArrowLeft");
+  assert.equal(await page.locator(".cut input").inputValue(), "99");
+  await page.keyboard.press("Home");
+  assert.equal(await page.locator(".cut input").inputValue(), "0");
+  assert.equal(await page.evaluate(() => document.body.dataset.step), "1");
+  await showAllHeights();
+});
+
+test("a page without steps says so in space", { skip }, async () => {
+  const bare = join(work, "bare");
+  cpSync(folder, bare, { recursive: true });
+  rmSync(join(bare, "steps.jsonl"));
+  const settings = readFileSync(join(bare, "effective.yaml"), "utf8");
+  writeFileSync(join(bare, "effective.yaml"), settings.replace("steps: true", "steps: false"));
+  const opened = await open(report(join(work, "bare.html"), bare));
+  assert.ok(await opened.page.locator(canvas).isVisible());
+  assert.match(await opened.page.locator(".space .note").innerText(), /no steps \(output\.steps: false\)/);
+  assertQuiet(opened);
+  await opened.page.close();
 });
 
 test("a step shows the map as a new drawing of it does, wherever it is seen from", { skip }, async (t) => {

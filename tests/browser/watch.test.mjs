@@ -44,6 +44,12 @@ test("the page shows the run as it goes on, and keeps what it has when the progr
   await page.waitForFunction((before) => Number(document.querySelector("input[type=range]").max) > before, grown);
   assert.equal(await page.evaluate(() => document.body.dataset.step), "0");
   assert.match(await page.locator(".map .note").innerText(), /only the newest step has its local map/);
+  // News leave the list of trials as the reader has it.
+  const sorted = page.locator("#trials th[aria-sort=ascending]");
+  await page.locator('#trials [data-sort="error, m"]').click();
+  const then = await last();
+  await page.waitForFunction((before) => Number(document.querySelector("input[type=range]").max) > before, then);
+  assert.equal(await sorted.innerText(), "error, m");
   await assertAccessibleInBoth(page, "a run that goes on");
   run.kill("SIGINT");
   assert.equal(await ended, 3);

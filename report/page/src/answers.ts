@@ -117,6 +117,12 @@ export function stepTimes({ runs }: Pick<Group, "runs">): number[] {
   return timed.flatMap(({ step_ms, timed_steps }) => spread(step_ms, Math.round(share * timed_steps)));
 }
 
+/** Of all steps where the summary of the only run tells it, also of steps that were not written; else of the times that are told. */
+function medianTime(group: Group): number | null {
+  const [{ summary }, ...others] = group.runs;
+  return summary && summary.steps > 0 && others.length === 0 ? summary.step_ms.median : median(stepTimes(group));
+}
+
 /** So many of some values, equally far apart in their order, with both ends. */
 function spread(values: number[], wanted: number): number[] {
   const count = Math.min(values.length, Math.max(wanted, 1));
@@ -138,7 +144,7 @@ export function answerOf(group: Group): Answer {
     way_m: medianOf(({ distance_m }) => distance_m),
     error_m: medianOf(({ translation_error_m }) => translation_error_m),
     angle_deg: medianOf(({ rotation_error_deg }) => rotation_error_deg),
-    step_ms: median(stepTimes(group)),
+    step_ms: medianTime(group),
     memory_mb: memory.length > 0 ? Math.max(...memory) : null,
   };
 }

@@ -16,13 +16,18 @@ export function certificateSentence(certificate: Certificate): string {
   return lead(certificate) < 0 ? `${proved} That bound is no lower, so a pose elsewhere may fit as well.` : proved;
 }
 
-function rivalsSentence({ refuted, rivals, score, margin }: Verification): string {
+/** Results list no more rivals of a step, the best ones. */
+const mostRivals = 5;
+
+function rivalsSentence({ rivals, score, margin }: Verification): string {
   if (rivals.length === 0) return "No rival was found.";
   const best = rivals[0];
   const place = `${fixed(best.pose.x, 1)} m, ${fixed(best.pose.y, 1)} m`;
-  const found = `${rivals.length === 1 ? "One rival was" : `${rivals.length} rivals were`} found; the best, at ${place}, has score ${significant(best.score)}`;
+  const number = `${rivals.length < mostRivals ? "" : "At least "}${rivals.length}`;
+  const found = `${rivals.length === 1 ? "One rival was" : `${number} rivals were`} found; the best, at ${place}, has score ${significant(best.score)}`;
   const limit = significant(score - margin);
-  return refuted
+  // A pose is refuted for other reasons, too.
+  return best.score >= score - margin
     ? `${found}, and ${limit} is enough to refute a pose of score ${significant(score)}.`
     : `${found}, less than the ${limit} that would refute the declared pose (score ${significant(score)}).`;
 }

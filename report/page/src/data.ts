@@ -159,6 +159,8 @@ export interface Summary {
   seed: number;
   complete: boolean;
   trials: { count: number; right: number; wrong: number; undecided: number; failed?: number; declared_without_reference?: number };
+  /** Of all trials, written or not. */
+  steps: number;
   success_rate: Proportion;
   false_rate: Proportion;
   steps_to_localize: Quantiles;

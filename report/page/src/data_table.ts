@@ -89,7 +89,11 @@ export class DataTable<Row> {
     const order = this.sorted?.column.order;
     if (!order || !this.sorted) return this.rows;
     const sign = (order.best === "most") === this.sorted.isReversed ? 1 : -1;
-    const value = (row: Row): number | string | null => order.by(row) ?? null;
+    // A share of nothing is no number, and is last as nothing is.
+    const value = (row: Row): number | string | null => {
+      const its = order.by(row) ?? null;
+      return typeof its === "number" && !Number.isFinite(its) ? null : its;
+    };
     return [...this.rows].sort((a, b) => {
       const [x, y] = [value(a), value(b)];
       if (x === null || y === null) return Number(x === null) - Number(y === null);
@@ -107,6 +111,9 @@ export class DataTable<Row> {
       const cells = others.map(({ cell, kind }) => el("td", { class: kind?.(row) }, cell(row)));
       return el("tr", {}, el("th", { scope: "row" }, name.cell(row), unfold), ...cells);
     };
+    // Rows that the reader has unfolded stay so where they are made anew.
+    const nameOf = (button: Element): string | undefined => button.closest("th")?.textContent ?? undefined;
+    const unfolded = [...this.body.querySelectorAll('.unfold[aria-expanded="true"]')].map(nameOf);
     replace(this.body, ...some.map(rowOf));
     [...this.head.cells].forEach((head, i) => {
       const isSorted = this.sorted?.column === this.columns[i];
@@ -117,6 +124,8 @@ export class DataTable<Row> {
     const all = el("button", { type: "button", class: "all", click: () => this.showAll() }, `all ${count(rows.length)} ${this.options.what}`);
     replace(this.rest, some.length < rows.length && `The first ${count(some.length)}. `, some.length < rows.length && all);
     this.fit();
+    if (unfolded.length === 0 || this.table.dataset.columns === "all") return;
+    for (const button of this.body.querySelectorAll<HTMLElement>(".unfold")) if (unfolded.includes(nameOf(button))) button.click();
   }
 
   private fit(): void {

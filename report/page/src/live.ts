@@ -29,8 +29,9 @@ export class LiveNews {
         return;
       }
       if (report?.live) {
-        // Another variant has other settings, perhaps another map: a new page.
-        if (report.live.variant !== this.store.report.live?.variant) location.reload();
+        // Another variant has other settings, perhaps another map, and a page opened before the map was loaded has neither: a new page.
+        const hasFirstMap = this.store.run.map === undefined && report.runs[0].map !== undefined;
+        if (report.live.variant !== this.store.report.live?.variant || hasFirstMap) location.reload();
         version = report.live.version;
         this.tell(report.live);
         this.store.update(report);

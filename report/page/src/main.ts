@@ -140,7 +140,7 @@ async function show(report: Report, page: HTMLElement): Promise<void> {
   if (hasView) append(page, view, keysHelp());
   append(page, ...after);
   showMeanings(page);
-  listenToKeys(store, player, views, fullScreen);
+  if (hasView) listenToKeys(store, player, views, fullScreen);
   new PageState(store, view, [views, borders]);
   trials.fill();
   if (ofTrials) distributions.fill();

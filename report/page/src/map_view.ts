@@ -6,6 +6,7 @@ import { boundingBox, compose, degrees, inverse, union, type Box } from "./geome
 import { saveMenu } from "./export";
 import { drawGridLines, drawGridNumbers, drawScale, SpacePicture, type Screen } from "./map_background";
 import { MapLegend } from "./map_legend";
+import { whatIsMissing } from "./missing";
 import { NearPlaces } from "./near_places";
 import { fixed, significant } from "./numbers";
 import { SvgPen, type Pen } from "./pen";
@@ -209,7 +210,8 @@ export class MapView implements Linked {
     }
     pen.save();
     pen.transform(...matrix);
-    pen.imageSmoothingEnabled = matrix[3] < 1 && matrix[0] < 1;
+    // The side of a pixel, whichever way the grid is turned.
+    pen.imageSmoothingEnabled = Math.hypot(matrix[0], matrix[1]) < 1;
     pen.drawImage(picture.canvas, 0, 0);
     pen.restore();
     unknown();
@@ -300,11 +302,7 @@ export class MapView implements Linked {
   private tellState(): void {
     const { steps, trial } = this.store;
     const { step, hypothesis } = this.store.selected;
-    const missing: string[] = [];
-    if (!this.store.map) missing.push("The results hold no global map (output.maps: none, or the first trial is missing).");
-    if (!trial) missing.push("No trial was finished.");
-    else if (trial.chunk !== undefined && this.store.fault) missing.push(`${this.store.fault}.`);
-    else if (!steps) missing.push("The results hold no steps (output.steps: false).");
+    const missing = whatIsMissing(this.store);
     if (steps && steps.step.length > 0) {
       const listed = steps.best.first[step + 1] - steps.best.first[step];
       if (listed < steps.clusters[step]) missing.push(`The ${listed} best of ${steps.clusters[step]} clusters.`);

@@ -133,9 +133,13 @@ export function listenToKeys(
   document.addEventListener("keydown", (event) => {
     const { target } = event;
     const work = keys[event.key];
-    if (!work || event.altKey || event.metaKey || (event.ctrlKey && event.key === "f") || !(target instanceof HTMLElement)) return;
+    if (!work || event.altKey || event.metaKey || !(target instanceof HTMLElement)) return;
+    // The browser has its own work for other keys with Ctrl, such as the size of its letters.
+    if (event.ctrlKey && !/^Arrow(Left|Right)$/.test(event.key)) return;
     if (target.matches("select, textarea, input:not([type=range]):not([type=checkbox])")) return;
     if (event.key === " " && target.matches("button, input, summary, a")) return;
+    // The slider of heights is moved by the same keys as that of the steps.
+    if (/^(Arrow|Home|End)/.test(event.key) && target.matches(".cut input")) return;
     const scrolls = (event.key === "ArrowUp" || event.key === "ArrowDown") && !event.shiftKey;
     // Wide tables scroll by arrows, and the page by Home and End where a table has the focus.
     if (scrolls || target.matches(".scroll, [role=separator]")) return;

@@ -41,7 +41,7 @@ function columnsOf(store: Store, hasDeclared: boolean, hasFailed: boolean): Colu
   const name: Column<Answer> = {
     name: "name",
     word: "run or setting",
-    cell: (answer) => el("span", { class: "named" }, el("button", { type: "button", "data-run": store.report.runs.indexOf(answer.runs[0]), click: () => store.chooseRun(store.report.runs.indexOf(answer.runs[0])) }, answer.isWhole ? answer.name : `${answer.name} (incomplete)`), bar(answer)),
+    cell: (answer) => el("span", { class: "named" }, el("button", { type: "button", "data-run": store.report.runs.indexOf(answer.runs[0]), "aria-pressed": String(answer.runs.includes(store.run)), click: () => store.chooseRun(store.report.runs.indexOf(answer.runs[0])) }, answer.isWhole ? answer.name : `${answer.name} (incomplete)`), bar(answer)),
     order: { by: ({ name: its }) => its, best: "least" },
   };
   return [
@@ -141,7 +141,6 @@ export class Ranking {
     const found = this.filtered();
     this.table.setRows(groupsOf(found, this.level).map(answerOf).sort(byAnswer));
     replace(this.told, found.length < runs.length && `${count(found.length)} of ${count(runs.length)} runs`);
-    this.mark();
     if (found.length !== this.store.shown.length || found.some((run, i) => run !== this.store.shown[i])) this.store.showRuns(found);
   }
 

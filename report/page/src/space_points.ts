@@ -4,9 +4,9 @@ import {
   BufferAttribute,
   BufferGeometry,
   Color,
-  Line,
   LineBasicMaterial,
   LineDashedMaterial,
+  LineSegments,
   Points,
   PointsMaterial,
   type Matrix4,
@@ -85,13 +85,13 @@ export class PointCloud {
   }
 }
 
-/** A line from place to place, over everything else. */
+/** Lines from the first place to the second, from the third to the fourth and so on, over everything else. */
 export class Way {
-  readonly object: Line<BufferGeometry, LineBasicMaterial | LineDashedMaterial>;
+  readonly object: LineSegments<BufferGeometry, LineBasicMaterial | LineDashedMaterial>;
 
   constructor(isDashed: boolean) {
     const material = isDashed ? new LineDashedMaterial({ depthTest: false }) : new LineBasicMaterial({ depthTest: false });
-    this.object = new Line(new BufferGeometry(), material);
+    this.object = new LineSegments(new BufferGeometry(), material);
     this.object.renderOrder = 1;
   }
 

@@ -6,6 +6,7 @@ import { el, replace } from "./elements";
 import { degrees } from "./geometry";
 import { KeptDrawing } from "./kept_drawing";
 import { layerBox } from "./layer_box";
+import { whatIsMissing } from "./missing";
 import { fixed, significant } from "./numbers";
 import { Arrows } from "./space_arrows";
 import { Cameras, type CameraName } from "./space_cameras";
@@ -225,15 +226,18 @@ export class SpaceView {
     this.clouds.map.show(places, new Matrix4(), Math.max(spacing_m, 0.02), this.heights.colours(z));
   }
 
-  /** Of estimate and reference. */
+  /** Of estimate and reference, from step to step as in the plan. */
   private showWays(): void {
     const { steps } = this.store;
     for (const layer of ["estimate", "reference"] as const) {
       const places: number[] = [];
+      let before: number[] | null = null;
       for (let i = 0; i < (steps?.step.length ?? 0); ++i) {
         const pose = steps && columnPose(steps[layer], i);
         const isJoined = layer === "reference" || steps?.verdict[i] === "localized";
-        if (pose && isJoined) places.push(...this.placed(pose).toArray());
+        const at: number[] | null = pose && isJoined ? this.placed(pose).toArray() : null;
+        if (before && at) places.push(...before, ...at);
+        before = at;
       }
       this.ways[layer].show(places, themeColour(layer), this.half.length());
     }
@@ -245,7 +249,7 @@ export class SpaceView {
     this.clouds.local_map.clear();
     this.clouds.scan.clear();
     this.tip.hidden = true;
-    replace(this.note);
+    replace(this.note, whatIsMissing(this.store).join(" "));
     if (steps && steps.step.length > 0) {
       const { step } = this.store.selected;
       this.showPoses(steps, step);

@@ -134,11 +134,11 @@ export class Store {
   }
 
   chooseStep(step: number): void {
-    this.show({ ...this.selection, step });
+    if (!this.isLeaving) this.show({ ...this.selection, step });
   }
 
   chooseHypothesis(hypothesis: Hypothesis): void {
-    this.show({ ...this.selection, hypothesis });
+    if (!this.isLeaving) this.show({ ...this.selection, hypothesis });
   }
 
   /** Takes newer data of a run that goes on; who looks at the last step stays at the last step. */
@@ -158,6 +158,11 @@ export class Store {
     this.wanted = this.selection;
     this.runsShown = report.runs;
     this.tell(everything);
+  }
+
+  /** Another trial is loaded: whoever goes on to move the steps of this one must not call it off. */
+  private get isLeaving(): boolean {
+    return this.wanted.run !== this.selection.run || this.wanted.trial !== this.selection.trial;
   }
 
   /** The last step of the last trial. */

@@ -35,7 +35,7 @@ const medians: Figure[] = [
   { label: "way", kind: () => "", tell: ofRight((s) => `${fixed(s.distance_to_localize_m.median, 2)} m`) },
   { label: "error", kind: () => "", tell: ofRight((s) => `${fixed(s.translation_error_m.median, 3)} m`) },
   { label: "angle error", kind: () => "", tell: ofRight((s) => `${fixed(s.rotation_error_deg.median, 2)}°`) },
-  { label: "wall time of a step", kind: () => "", tell: (s) => `${significant(s.step_ms.median, 2)} ms` },
+  { label: "wall time of a step", kind: () => "", tell: (s) => (s.steps > 0 ? `${significant(s.step_ms.median, 2)} ms` : "–") },
 ];
 
 /** Names of the experiments; what runs are called besides is theirs. */
@@ -80,7 +80,7 @@ function verdictOf(trial: Trial, summary: Summary): HTMLElement {
       { class: `answer ${outcome}` },
       explained(el("strong", { "data-figure": "outcome" }, outcome)),
       el("span", {}, outcomeSentence(trial)),
-      el("small", {}, `one trial, seed ${summary.seed}; a step takes ${significant(summary.step_ms.median, 2)} ms`),
+      el("small", {}, `one trial, seed ${summary.seed}${summary.steps > 0 ? `; a step takes ${significant(summary.step_ms.median, 2)} ms` : ""}`),
     ),
   );
 }

@@ -6,15 +6,22 @@ import { el, replace, section } from "./elements";
 import { count, fixed, proportion } from "./numbers";
 import { explained } from "./words";
 
+/** Without a trial, or a reference to judge declarations by, rates say nothing. */
+function hasRates({ trials: { count: all, right, wrong, declared_without_reference: declared = 0 } }: Summary): boolean {
+  return all > 0 && (right + wrong > 0 || declared === 0);
+}
+
 export function summarySection({ summary }: Run): HTMLElement | null {
   if (!summary) return null;
+  const declared = summary.trials.declared_without_reference ?? 0;
   const rows: [string, (summary: Summary) => string][] = [
     ["experiment, seed", (s) => `${s.name}, ${s.seed}`],
     ["trials", (s) => count(s.trials.count)],
     ["right, wrong, undecided", (s) => `${s.trials.right}, ${s.trials.wrong}, ${s.trials.undecided}`],
+    ...(declared > 0 ? [["declared, not judged", () => count(declared)] as [string, () => string]] : []),
     ["failed", (s) => count(s.trials.failed ?? 0)],
-    ["success", (s) => proportion(s.success_rate)],
-    ["wrong", (s) => proportion(s.false_rate)],
+    ["success", (s) => (hasRates(s) ? proportion(s.success_rate) : "–")],
+    ["wrong", (s) => (hasRates(s) ? proportion(s.false_rate) : "–")],
     ["steps to localize, median", (s) => (s.trials.right > 0 ? fixed(s.steps_to_localize.median, 1) : "–")],
     ["distance to localize, median", (s) => (s.trials.right > 0 ? `${fixed(s.distance_to_localize_m.median, 2)} m` : "–")],
     [
@@ -24,8 +31,8 @@ export function summarySection({ summary }: Run): HTMLElement | null {
           ? `${fixed(s.translation_error_m.median, 3)} m, ${fixed(s.rotation_error_deg.median, 2)}°`
           : "–",
     ],
-    ["wall time of a step, median (95 %)", (s) => `${fixed(s.step_ms.median, 1)} ms (${fixed(s.step_ms.p95, 1)} ms)`],
-    ["matching, median", (s) => `${fixed(s.stage_ms.match.median, 1)} ms`],
+    ["wall time of a step, median (95 %)", (s) => (s.steps > 0 ? `${fixed(s.step_ms.median, 1)} ms (${fixed(s.step_ms.p95, 1)} ms)` : "–")],
+    ["matching, median", (s) => (s.steps > 0 ? `${fixed(s.stage_ms.match.median, 1)} ms` : "–")],
     ["points of the map", (s) => count(s.map.points)],
     ["memory, largest", (s) => `${fixed(s.peak_rss_mb, 0)} MiB`],
   ];

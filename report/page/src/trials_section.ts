@@ -39,7 +39,7 @@ function trialColumns(store: Store, hasCertificates: boolean): Column<Listed>[] 
   return [
     {
       name: "trial",
-      cell: ({ trial, index }) => el("button", { type: "button", "data-trial": index, click: () => openTrial(store, index) }, String(trial.trial)),
+      cell: ({ trial, index }) => el("button", { type: "button", "data-trial": index, "aria-pressed": String(index === store.selected.trial), click: () => openTrial(store, index) }, String(trial.trial)),
       order: least(({ trial }) => trial),
     },
     {
@@ -63,6 +63,7 @@ export class TrialList {
   private readonly target = el("div", {});
   private readonly controls = el("p", { class: "controls" });
   private table: DataTable<Listed> | null = null;
+  private hasCertificates = false;
   /** Empty for all. */
   private outcome: string = "";
 
@@ -75,9 +76,13 @@ export class TrialList {
   }
 
   fill(): void {
-    const { trials } = this.store.run;
-    this.table = new DataTable(trialColumns(this.store, trials.some((trial) => trial.certificate)), { keys: 3, most: mostRows, what: "trials", className: "trials" });
-    replace(this.target, this.table.element);
+    const hasCertificates = this.store.run.trials.some((trial) => trial.certificate);
+    // News of a run that goes on leave the order and the rows that the reader has asked for.
+    if (!this.table || !this.store.report.live || hasCertificates !== this.hasCertificates) {
+      this.hasCertificates = hasCertificates;
+      this.table = new DataTable(trialColumns(this.store, hasCertificates), { keys: 3, most: mostRows, what: "trials", className: "trials" });
+      replace(this.target, this.table.element);
+    }
     this.showOutcome(this.outcome);
   }
 
@@ -98,7 +103,6 @@ export class TrialList {
     this.outcome = some.length > 0 ? outcome : "";
     this.table?.setRows(some.length > 0 ? some : listed);
     this.drawControls();
-    this.mark();
   }
 
   private mark(): void {
@@ -188,7 +192,7 @@ export class Distributions {
 /** Right and wrong of all trials, with their 95 % intervals. */
 function successChart(runs: Run[]): SharePanel {
   const marks = runs.flatMap(({ summary }, index): Mark[] =>
-    summary
+    summary && summary.trials.count > 0
       ? [
           { x: index + 0.88, rate: summary.success_rate, index, shape: "●" },
           { x: index + 1.12, rate: summary.false_rate, index, shape: "■" },

@@ -27,13 +27,6 @@ function isInSpace({ maps }: Report): boolean {
   return maps.some((map) => map.z !== undefined);
 }
 
-/** A page that was opened before the map was there has no script for it. */
-function hintOf(store: Store): HTMLElement {
-  const hint = el("p", { class: "note" });
-  store.subscribe(() => replace(hint, isInSpace(store.report) && "Load this page again to see the run in space."));
-  return hint;
-}
-
 export class Views implements Linked {
   readonly element: HTMLElement;
   private readonly space: SpaceView | null = null;
@@ -45,11 +38,7 @@ export class Views implements Linked {
     private readonly plan: MapView,
   ) {
     this.element = plan.element;
-    if (!window.glocalSpace) {
-      if (store.report.live) this.element = el("div", { class: "views" }, hintOf(store), plan.element);
-      return;
-    }
-    if (!isInSpace(store.report)) return;
+    if (!window.glocalSpace || !isInSpace(store.report)) return;
     const bar = el("div", { class: "view-bar", role: "group", "aria-label": "View of the map" });
     try {
       this.space = new window.glocalSpace.SpaceView(store);

@@ -101,6 +101,7 @@ const same: Record<string, string> = {
   "y, m": "x, y, θ",
   "θ, °": "x, y, θ",
   "right, wrong, undecided": "outcome",
+  "declared, not judged": "declared",
   "experiment, seed": "seed",
   "evidence: margin": "margin",
   "evidence: free_space_violation": "free space violation",
