@@ -22,6 +22,7 @@
 #include "app/standard_streams.hpp"
 #include "app/step_text.hpp"
 #include "evaluation/results/atomic_file.hpp"
+#include "evaluation/results/results_folder.hpp"
 #include "evaluation/running/experiment_runner.hpp"
 
 namespace glocal::app {
@@ -152,6 +153,8 @@ void localize(const LocalizeOptions& options, Context& context) {
   for (const std::string& choice : plan.choices) answer("{}\n", choice);
   answer("experiment  {}\n", file);
   std::fflush(stdout);
+  // The page of a run that was interrupted is its own, and this one goes on with that.
+  const bool goes_on = is_complete(out) == false;
 
   listen_to_interrupts();
   Narrator narrator;
@@ -162,8 +165,9 @@ void localize(const LocalizeOptions& options, Context& context) {
                                .run();
   print_figures(result);
   context.exit_code = exit_code_of(result);
-  ReportOptions report{
-      .folders = {result.folder.string()}, .out = out + ".html", .files = {.replace = options.force}};
+  ReportOptions report{.folders = {result.folder.string()},
+                       .out = out + ".html",
+                       .files = {.replace = options.force || goes_on}};
   answer("report      {}\n", write_report(report).string());
 }
 

@@ -1,6 +1,9 @@
 // glocal localize.
 #include <gmock/gmock.h>
 
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
 #include "app/program.hpp"
 #include "files.hpp"
 #include "octree_files.hpp"
@@ -103,6 +106,18 @@ TEST_F(Localize, AnAnswerThatIsInTheWayStays) {
   good(localize("room/drive.mcap"));
   EXPECT_THAT(refusal(localize("room/drive.mcap", "--start 2")), HasSubstr("answer.yaml"));
   good(localize("room/drive.mcap", "--start 2 --force"));
+}
+
+TEST_F(Localize, AnInterruptedRunIsGoneOnWithAndItsPageRenewed) {
+  good(localize("room/drive.mcap"));
+  auto summary = nlohmann::ordered_json::parse(content(file("answer/summary.json")));
+  summary["complete"] = false;
+  folder_.write("answer/summary.json", summary.dump());
+  folder_.write("answer.html", "of some trials");
+  good(localize("room/drive.mcap"));
+  EXPECT_THAT(content(file("answer.html")), HasSubstr("<html"));
+  std::filesystem::remove_all(file("answer"));
+  EXPECT_THAT(refusal(localize("room/drive.mcap")), HasSubstr("answer.html: error: the file exists"));
 }
 
 TEST_F(Localize, WhatIsNeitherMapNorLogIsRefused) {
