@@ -10,9 +10,9 @@
 namespace glocal::app {
 namespace {
 
-void check_free(const std::filesystem::path& shared) {
-  if (is_results_folder(shared))
-    throw ConfigError(shared,
+void check_free(const std::filesystem::path& folder) {
+  if (is_results_folder(folder))
+    throw ConfigError(folder,
                       "output: the folder has results of a run without shards; choose another one with "
                       "--out");
 }
@@ -31,6 +31,8 @@ std::optional<Manifest> planned_shards(std::vector<Variant>& variants, const std
     if (!has_more_variants(there, here)) return there;
   } else {
     check_free(shared);
+    // Reports would take these for what the shards have come to, and merging would refuse them at the end.
+    for (const Variant& variant : variants) check_free(shared / variant.name);
   }
   // What is loaded to find out leaves threads behind, with which this process could have no children.
   const ChildEnd end = run_in_child([&] {

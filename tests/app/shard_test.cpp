@@ -273,6 +273,10 @@ TEST_F(Shards, ResultsOfAnotherRunAreNotReplaced) {
               HasSubstr("iterations-10000: error: output: the folder has results of another run"));
   good(merge("--quiet --force"));
   EXPECT_EQ(json("shared/iterations-10000/summary.json")["seed"], 1);
+  good(run_room("before", "--quiet --seed 2"));
+  EXPECT_THAT(refusal(run_room("before", "--quiet --shard 1/2")),
+              HasSubstr("before/iterations-10000: error: output: the folder has results of a run without"));
+  EXPECT_FALSE(fs::exists(file("before/.shards")));
   write_experiment("trials: {every_scan: 2, max_steps: 6}\n");
   good(run_room("plain"));
   EXPECT_EQ(run_room("plain", "--shard 1/1").exit_code, 2) << "results of a run without shards are there";
