@@ -136,10 +136,12 @@ void compare_runs(const CompareOptions& options, Context& context) {
                       "there is nothing to compare it with; name two folders of results or more");
   }
   const std::size_t baseline = find_baseline(runs, options.baseline);
+  AtomicFiles files(options.force);
+  // Before anything is run anew for them.
+  for (const std::string& file : options.out) files.check(file);
   if (options.time_anew) measure_times_anew(runs, options.trust_plugins, context);
   const ComparisonOutput output =
       comparison_output(runs, baseline, options.no_times ? measures_but_time() : measures());
-  AtomicFiles files(options.force);
   for (const std::string& file : options.out) files.add(file, written_as(output, file));
   files.commit();
   if (options.json) {

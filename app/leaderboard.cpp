@@ -301,6 +301,8 @@ void import(const BoardOptions& options, Context& context) {
                     {"imported_sha256", sha256_of_file(options.poses)},
                     {"suite_sha256", sha256_of_file(suite.file)}},
                    {}};
+  // Before all maps and drives are loaded for it.
+  require_place(options, entry);
   ExperimentLoader loader(context.catalog, warn);
   std::vector<Fault> faults;
   for_each_loaded(variants, loader, [&](std::size_t i, LoadedExperiment& loaded) {

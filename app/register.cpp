@@ -162,8 +162,7 @@ void register_pair(const RegisterOptions& options, const Registering& registerin
   const Cloud source = read(options.source, options);
   const Cloud target = read(options.target, options);
   // Before any work is done for it.
-  if (!options.out.empty() && !options.force && std::filesystem::exists(options.out))
-    throw ConfigError(options.out, "there is a file already; give another name, or --force");
+  if (!options.out.empty()) AtomicFiles(options.force).check(options.out);
   for (const std::string& method : registering.methods) {
     const PairOutcome outcome = outcome_of({options.source, options.target, options.source, options.target},
                                            source, target, method, options, registering);

@@ -18,7 +18,7 @@ AtomicFiles::~AtomicFiles() {
   for (const Pending& pending : pending_) fs::remove(pending.temporary, ignored);
 }
 
-void AtomicFiles::add(const fs::path& file, std::string_view content) {
+fs::path AtomicFiles::target_of(const fs::path& file) const {
   fs::path target = fs::absolute(file).lexically_normal();
   std::error_code error;
   // What a link leads to is replaced, not the link.
@@ -34,6 +34,11 @@ void AtomicFiles::add(const fs::path& file, std::string_view content) {
   if (!replace_ && fs::exists(target, error)) {
     throw ConfigError(file, "the file exists; choose another name, or replace it with --force");
   }
+  return target;
+}
+
+void AtomicFiles::add(const fs::path& file, std::string_view content) {
+  const fs::path target = target_of(file);
   make_folders_above(target);
   // Processes of two machines may have the same number, and write at the same time.
   const auto now = std::chrono::system_clock::now().time_since_epoch();

@@ -18,8 +18,10 @@ class AtomicFiles {
   AtomicFiles(const AtomicFiles&) = delete;
   AtomicFiles& operator=(const AtomicFiles&) = delete;
 
-  /// Writes a file under its temporary name. Folders above it are made. Throws ConfigError if it exists and
-  /// may not be replaced.
+  /// Throws ConfigError if a file exists and may not be replaced: for that to be said before anything is
+  /// computed.
+  void check(const std::filesystem::path& file) const { static_cast<void>(target_of(file)); }
+  /// Writes a file under its temporary name. Folders above it are made. Throws as check() does.
   void add(const std::filesystem::path& file, std::string_view content);
   /// The same for a file that is written piece by piece: adds to the file that was added last.
   void append(std::string_view content);
@@ -30,6 +32,9 @@ class AtomicFiles {
     std::filesystem::path file;
     std::filesystem::path temporary;
   };
+  /// Where it is written. Throws as check() does.
+  [[nodiscard]] std::filesystem::path target_of(const std::filesystem::path& file) const;
+
   bool replace_;
   std::vector<Pending> pending_;
 };

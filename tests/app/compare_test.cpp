@@ -154,6 +154,10 @@ TEST_F(CompareCommand, RefusesTimesOfWhatAnswersOtherwiseNow) {
   fs::copy_file(file("a/effective.yaml"), file("b/effective.yaml"), fs::copy_options::overwrite_existing);
   EXPECT_THAT(refusal(run("compare --time " + file("a") + " " + file("b"))),
               AllOf(HasSubstr(file("b") + ": error: trial "), HasSubstr("run it anew")));
+  // A file that is in the way is told before anything is run.
+  folder_.write("old.md", "kept");
+  EXPECT_THAT(refusal(run("compare --time " + file("a") + " " + file("b") + " -o " + file("old.md"))),
+              HasSubstr("old.md: error: the file exists"));
   EXPECT_EQ(run("compare --time --no-times " + file("a") + " " + file("b")).exit_code, 2);
 }
 

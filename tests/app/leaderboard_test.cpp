@@ -70,9 +70,9 @@ class Leaderboard : public Room {
     return csv;
   }
 
-  [[nodiscard]] Answer import(const std::string& csv) const {
+  [[nodiscard]] Answer import(const std::string& csv, const std::string& options = "") const {
     return run("leaderboard import " + folder_.write("poses.csv", csv).string() +
-               " --suite tiny --method theirs");
+               " --suite tiny --method theirs" + options);
   }
 
   const std::string suite_ = "# A room.\nversion: 1\nseeds: 1..2\ncases: [small_room]\n";
@@ -315,7 +315,10 @@ TEST_F(Leaderboard, PosesOfAnotherFrameAreToldByHowTheyFit) {
   pin();
   run_and_add();
   good(import(moved_references(0.0)));
-  const std::string moved = refusal(import(moved_references(7.0)));
+  EXPECT_THAT(refusal(import(moved_references(7.0))),
+              HasSubstr("theirs.json: error: is there already; --force replaces it"))
+      << "before any pose is judged";
+  const std::string moved = refusal(import(moved_references(7.0), " --force"));
   EXPECT_TRUE(
       std::regex_search(moved, std::regex("its poses are of another frame: \\d+ of \\d+ fit if all are "
                                           "turned by -?0.0 deg and moved by \\(-7.00, -?0.00\\) m")))

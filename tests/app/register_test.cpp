@@ -54,7 +54,7 @@ TEST_F(RegisterCommand, SaysThePoseAndJoinsTheClouds) {
   }
   EXPECT_THAT(
       refusal(run("register " + file("source.pcd") + " " + file("target.pcd") + " -o " + file("both.pcd"))),
-      HasSubstr("there is a file already"));
+      HasSubstr("both.pcd: error: the file exists; choose another name, or replace it with --force"));
 }
 
 TEST_F(RegisterCommand, MakesATableOfPairs) {
