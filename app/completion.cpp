@@ -202,7 +202,7 @@ std::vector<Candidate> options_of(const CLI::App& command, const CLI::App& app) 
       found.push_back({"--" + name, option.get_description()});
   };
   for (const CLI::Option* option : command.get_options()) add(*option);
-  if (&command != &app) add(*app.get_option("--plugin"));
+  if (command.get_option_no_throw("--plugin") == nullptr) add(*app.get_option("--plugin"));
   return found;
 }
 

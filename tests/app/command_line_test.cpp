@@ -72,6 +72,13 @@ TEST_F(CommandLine, OptionsThatWereRenamedSayWhatTheyAreNow) {
   EXPECT_THAT(run("convert a.log b.mcap").err, HasSubstr("--out is required"));
 }
 
+TEST_F(CommandLine, PluginsAreLoadedInAnyCommand) {
+  for (const char* command : {"list", "map info a.yaml", "bag info a.bag", "leaderboard check planar@1"})
+    EXPECT_THAT(refusal(run(command + std::string(" --plugin none.so"))),
+                HasSubstr("none.so: error: no such file"))
+        << command;
+}
+
 TEST_F(CommandLine, WhatIsNoNumberIsNoNumberOfAnOption) {
   for (const char* command :
        {"check --budget-ms", "convert a.log -o b.mcap --max-range", "localize map.yaml a.log --every",

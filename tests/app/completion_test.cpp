@@ -43,6 +43,7 @@ TEST_F(Completion, OffersTheOptionsOfTheCommand) {
   EXPECT_THAT(candidates("run --see"), ElementsAre("--seeds", "--seed"));
   EXPECT_THAT(candidates("run a.yaml --out b --se"), ElementsAre("--seeds", "--set", "--seed"));
   EXPECT_THAT(candidates("describe --plu"), ElementsAre("--plugin"));
+  EXPECT_THAT(candidates("map build --plu"), ElementsAre("--plugin"));
   EXPECT_THAT(candidates("map build --fo"), Not(IsEmpty()));
 }
 
