@@ -61,7 +61,9 @@ std::vector<Override> ExperimentOptions::overrides() const {
   if (!seeds.empty()) overrides.emplace_back("seeds", seeds);
   if (!suite.empty()) overrides.emplace_back("suite", to_yaml(std::string_view(suite)));
   if (!share.empty()) overrides.emplace_back("share", share);
-  if (file.empty() && suite.empty() && !methods.empty()) overrides.emplace_back("name", "comparison");
+  // The last value counts: --set may say another name.
+  if (file.empty() && suite.empty() && !methods.empty())
+    overrides.emplace(overrides.begin(), "name", "comparison");
   return overrides;
 }
 

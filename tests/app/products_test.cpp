@@ -37,6 +37,14 @@ TEST_F(ProductsCommand, RunLeavesAFolderForEachMethodCaseAndSeed) {
   EXPECT_THAT(content(out + "/many_small_room_seed-2/effective.yaml"), HasSubstr("20000"));
 }
 
+TEST_F(ProductsCommand, ARunIsCalledComparisonUnlessItIsSaidOtherwise) {
+  const std::string command = "run --quiet --method " + file("few.yaml") + case_option();
+  good(run(command + "--out " + file("a")));
+  EXPECT_EQ(json("a/few_small_room/summary.json")["name"], "comparison");
+  good(run(command + "--set name=mine --out " + file("b")));
+  EXPECT_EQ(json("b/few_small_room/summary.json")["name"], "mine");
+}
+
 TEST_F(ProductsCommand, JobsAreGivenTheNamesToo) {
   const Answer answer = good(run("submit --parallel --dry-run --shards 2 --method " + file("few.yaml") +
                                  case_option() + "--seeds 1..2 --out " + file("shared")));
