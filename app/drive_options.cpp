@@ -46,12 +46,7 @@ clouds::DriveFiles cloud_files(const DriveOptions& options) {
 
 std::unique_ptr<DriveReader> open_clouds(const DriveOptions& options, const Warn& warn,
                                          const TellProgress& progress) {
-  for (const auto& [name, value] :
-       {std::pair("--scans", options.scans), std::pair("--odom-frame", options.odom_frame),
-        std::pair("--base-frame", options.base_frame)}) {
-    if (!value.empty())
-      throw ConfigError(options.file, fmt::format("a folder of clouds has no topics: leave out {}", name));
-  }
+  refuse_topics_of_clouds(options.file, options.scans, options.odom_frame, options.base_frame);
   return std::make_unique<conversion::CloudFolderReader>(cloud_files(options), warn, progress);
 }
 
@@ -60,6 +55,15 @@ std::unique_ptr<DriveReader> open_clouds(const DriveOptions& options, const Warn
 void add_strict(CLI::App& command, bool& strict) {
   command.add_flag("--strict", strict,
                    "Refuse a recording that is damaged behind something whole, instead of reading that");
+}
+
+void refuse_topics_of_clouds(const fs::path& folder, const std::string& scans, const std::string& odom_frame,
+                             const std::string& base_frame) {
+  for (const auto& [name, value] : {std::pair("--scans", scans), std::pair("--odom-frame", odom_frame),
+                                    std::pair("--base-frame", base_frame)}) {
+    if (!value.empty())
+      throw ConfigError(folder, fmt::format("a folder of clouds has no topics: leave out {}", name));
+  }
 }
 
 void DriveOptions::add_to(CLI::App& command, const std::string& name) {

@@ -18,6 +18,10 @@ namespace glocal::app {
 /// Adds --strict.
 void add_strict(CLI::App& command, bool& strict);
 
+/// Throws ConfigError for the first of these options that was given with a folder of clouds.
+void refuse_topics_of_clouds(const std::filesystem::path& folder, const std::string& scans,
+                             const std::string& odom_frame, const std::string& base_frame);
+
 struct DriveOptions {
   std::string file;
   std::string scans, odometry, odom_frame, base_frame, reference;

@@ -381,13 +381,15 @@ void add_leaderboard(CLI::App& app, Context& context) {
           ->excludes(by_case)
           ->excludes(board->get_option("--case"));
   CLI::Option* markdown = board->add_flag("--markdown", options->markdown, "Print tables as Markdown");
-  board
-      ->add_option("-o,--out", options->page,
-                   "Write a page for a browser in place of tables, with all starts and how methods changed")
-      ->excludes(by_case)
-      ->excludes(by_kind)
-      ->excludes(markdown)
-      ->excludes(board->get_option("--case"));
+  CLI::Option* page =
+      board
+          ->add_option(
+              "-o,--out", options->page,
+              "Write a page for a browser in place of tables, with all starts and how methods changed")
+          ->excludes(by_case)
+          ->excludes(by_kind)
+          ->excludes(markdown)
+          ->excludes(board->get_option("--case"));
   const auto add_board_to = [&](CLI::App& command) {
     command.add_option("--board", options->board, "Folder of the leaderboard (default: that of glocal)");
   };
@@ -396,6 +398,7 @@ void add_leaderboard(CLI::App& app, Context& context) {
   };
   add_board_to(*board);
   add_force_to(*board);
+  board->get_option("--force")->needs(page);
   board->callback([options, board] {
     if (!board->get_subcommands().empty()) return;
     if (options->page.empty())

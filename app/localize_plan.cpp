@@ -8,6 +8,7 @@
 #include <set>
 #include <tuple>
 
+#include "app/drive_options.hpp"
 #include "app/log_kind.hpp"
 #include "config/experiment_params.hpp"
 #include "config/products.hpp"
@@ -198,6 +199,8 @@ LogChoice choose_recording(const LocalizeRequest& request, const MapChoice& map)
 }
 
 LogChoice choose_clouds(const LocalizeRequest& request) {
+  refuse_topics_of_clouds(request.log, request.scans.empty() ? "" : request.scans.front(), request.odom_frame,
+                          request.base_frame);
   LogChoice choice{fmt::format("cloud_drive:\n    {}\n", path_entry("folder", request.log)),
                    {"log         a folder of clouds"}};
   const fs::path odometry =

@@ -32,7 +32,7 @@ namespace {
 struct MapOptions {
   ExperimentOptions input;
   std::string out;
-  std::string image = "pgm";
+  std::string image;  ///< Empty: pgm.
   bool force = false;
 };
 
@@ -73,12 +73,15 @@ void write(const MapData& map, const MapOptions& options) {
   const std::filesystem::path out(options.out);
   AtomicFiles files(options.force);
   if (out.extension() == ".pcd") {
+    if (!options.image.empty())
+      throw ConfigError(options.out, "points have no image; leave out --image, or name a .yaml file");
     files.add(out, pcd(map.points, map.origin));
   } else if (out.extension() == ".yaml") {
     if (map.grid.cells.empty())
       throw ConfigError(options.out, "the map has points and no cells; name a .pcd file");
     const ros_map::ByteImage image = ros_map::trinary_image(map.grid);
-    const std::filesystem::path image_file = std::filesystem::path(out).replace_extension(options.image);
+    const std::filesystem::path image_file =
+        std::filesystem::path(out).replace_extension(options.image.empty() ? "pgm" : options.image);
     files.add(image_file, options.image == "png" ? ros_map::png(image) : ros_map::pgm(image));
     files.add(out, ros_map::ros_map_yaml(map.grid, image_file.filename().string(), map.origin));
   } else {

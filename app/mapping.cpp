@@ -97,16 +97,20 @@ void add_mapping(CLI::App& app, Context& context) {
                       "Experiment files (YAML) whose observations have reference poses; none needed with "
                       "--method and --case");
   options->experiment.add_products_to(*command);
-  command->add_flag("--whole", options->windows.whole,
-                    "One start only, and the error at the end of the drive or where it is interrupted");
+  CLI::Option* whole =
+      command->add_flag("--whole", options->windows.whole,
+                        "One start only, and the error at the end of the drive or where it is interrupted");
   command->add_option("--every", options->windows.every_m, "Way from one start to the next, m")
+      ->excludes(whole)
       ->check(above_zero())
       ->capture_default_str();
   command->add_option("--after", options->windows.after_m, "Way after which the error is taken, m")
+      ->excludes(whole)
       ->check(above_zero())
       ->capture_default_str();
   command
       ->add_option("--fail-after", options->windows.fail_after_m, "Way after which failures are counted, m")
+      ->excludes(whole)
       ->check(above_zero())
       ->capture_default_str();
   options->experiment.add_overrides_to(*command);

@@ -79,6 +79,12 @@ TEST_F(CommandLine, PluginsAreLoadedInAnyCommand) {
         << command;
 }
 
+TEST_F(CommandLine, OptionsThatWouldDoNothingAreRefused) {
+  for (const char* option : {"--every", "--after", "--fail-after"})
+    EXPECT_THAT(refusal(run(std::string("mapping a.yaml --whole ") + option + " 3")),
+                HasSubstr(std::string("--whole excludes ") + option));
+}
+
 TEST_F(CommandLine, WhatIsNoNumberIsNoNumberOfAnOption) {
   for (const char* command :
        {"check --budget-ms", "convert a.log -o b.mcap --max-range", "localize map.yaml a.log --every",

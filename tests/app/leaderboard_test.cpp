@@ -184,7 +184,7 @@ TEST_F(Leaderboard, ACheckOfNothingIsAnError) {
   run_and_add();
   for (const std::string nothing : {"--method indxed", "--board /nowhere"})
     EXPECT_THAT(refusal(run("leaderboard check " + nothing)), HasSubstr("has no results")) << nothing;
-  for (const char* filter : {"--cases", "--case small_room"})
+  for (const char* filter : {"--cases", "--case small_room", "--force"})
     EXPECT_EQ(run(std::string("leaderboard ") + filter).exit_code, 2) << filter;
 }
 

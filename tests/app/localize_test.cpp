@@ -128,6 +128,10 @@ TEST_F(Localize, WhatIsNeitherMapNorLogIsRefused) {
               HasSubstr("absent.bag: error: there is no such file or folder"));
   EXPECT_THAT(refusal(localize("room/drive.log", "--reference /truth")),
               HasSubstr("drive.log: error: is taken for a CARMEN log"));
+  folder_.write("clouds/1.pcd", "");
+  for (const std::string option : {"--scans", "--odom-frame", "--base-frame"})
+    EXPECT_THAT(refusal(localize("clouds", option + " x")),
+                HasSubstr("clouds: error: a folder of clouds has no topics: leave out " + option + "\n"));
   EXPECT_EQ(content(file("answer.yaml")), "");
 }
 

@@ -44,6 +44,8 @@ TEST_F(MapCommand, BuildsShowsAndConverts) {
 
   good(run("map convert " + file("a.yaml") + " -o " + file("b.yaml") + " --image png"));
   EXPECT_EQ(run("map info " + file("b.yaml")).out, answer.out);
+  EXPECT_THAT(refusal(run("map convert " + file("a.yaml") + " -o " + file("c.pcd") + " --image png")),
+              HasSubstr("c.pcd: error: points have no image; leave out --image, or name a .yaml file"));
   good(run("map convert " + file("a.yaml") + " -o " + file("c.pcd")));
   EXPECT_THAT(content(file("c.pcd")), HasSubstr("POINTS 2\n"));
 }
