@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -44,8 +45,8 @@ struct PrepareOptions {
   std::string poses_of = "robot";
   double shift_s = 0.0;
   double max_gap_s = 0.5;
-  double map_share = 0.0;  ///< 0: chosen.
-  int blocks = 1;
+  double map_share = 0.0;     ///< 0: chosen.
+  std::optional<int> blocks;  ///< None: chosen.
   bool force = false;
 };
 
@@ -128,10 +129,9 @@ CaseFacts facts_of(const PrepareOptions& options, const ReferencePoses& referenc
                         "has no relation both of whose times have a reference pose; its times are those "
                         "of the log's scans");
   }
-  const bool is_given = options.map_share > 0.0 || options.blocks > 1;
-  facts.split = is_given ? conversion::split_drive(facts.scans, options.blocks,
-                                                   options.map_share > 0.0 ? options.map_share : 0.5)
-                         : conversion::choose_split(facts.scans);
+  facts.split = options.map_share > 0.0
+                    ? conversion::split_drive(facts.scans, options.blocks.value_or(1), options.map_share)
+                    : conversion::choose_split(facts.scans, options.blocks);
   return facts;
 }
 

@@ -64,13 +64,13 @@ MapSplit split_drive(const std::vector<TrackedScan>& scans, int blocks, double m
   return split;
 }
 
-MapSplit choose_split(const std::vector<TrackedScan>& scans) {
+MapSplit choose_split(const std::vector<TrackedScan>& scans, std::optional<int> blocks) {
   constexpr double enough = 0.5;
   for (const double share : {0.3, 0.4, 0.5, 0.6, 0.7}) {
-    MapSplit split = split_drive(scans, 1, share);
+    MapSplit split = split_drive(scans, blocks.value_or(1), share);
     if (split.run_near_map >= enough) return split;
   }
-  return split_drive(scans, 5, 0.5);
+  return split_drive(scans, blocks.value_or(5), 0.5);
 }
 
 std::string segments_yaml(const PathSegments& segments) {

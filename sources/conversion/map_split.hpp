@@ -1,6 +1,7 @@
 // Which parts of a drive a map is made from, and on which the robot is looked for.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,9 +23,9 @@ inline constexpr double near_map_m = 2.0;
 /// it.
 [[nodiscard]] MapSplit split_drive(const std::vector<TrackedScan>& scans, int blocks, double map_share);
 
-/// The first 30, 40, 50, 60 or 70 % of the drive: the least that leaves half of the rest near the map. Of a
-/// drive that does not come back, halves of five blocks.
-[[nodiscard]] MapSplit choose_split(const std::vector<TrackedScan>& scans);
+/// The first 30, 40, 50, 60 or 70 % of the drive, or of each of so many blocks: the least that leaves half of
+/// the rest near the map. Of a drive that does not come back, halves of the blocks, or of five.
+[[nodiscard]] MapSplit choose_split(const std::vector<TrackedScan>& scans, std::optional<int> blocks = {});
 
 /// "[[0, 0.3], [0.5, 0.8]]"
 [[nodiscard]] std::string segments_yaml(const PathSegments& segments);

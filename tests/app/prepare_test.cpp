@@ -91,6 +91,9 @@ TEST_F(PrepareCommand, ALogWithReferencePosesNeedsNoOther) {
   EXPECT_THAT(refusal(prepare(file("raw.log") + " --out " + file("a"))),
               HasSubstr("the folder exists and is not empty"));
   good(prepare(file("simulated/drive.log") + " --force --out " + file("a")));
+  good(prepare(file("simulated/drive.log") + " --blocks 2 --out " + file("c")));
+  EXPECT_THAT(content(file("c/experiment.yaml")), HasSubstr("segments: [[0, 0.15], [0.5, 0.65]]"))
+      << "the share is chosen";
 }
 
 TEST_F(PrepareCommand, WhatDoesNotFitIsSaid) {

@@ -100,10 +100,12 @@ TEST(MapSplit, TakesTheLeastThatTheRestComesBackTo) {
   const MapSplit there_and_back = choose_split(scans);
   EXPECT_EQ(segments_yaml(there_and_back.map), "[[0, 0.3]]");
   EXPECT_EQ(segments_yaml(there_and_back.run), "[[0.3, 1]]");
+  EXPECT_EQ(segments_yaml(choose_split(scans, 2).map), "[[0, 0.15], [0.5, 0.65]]");
   scans.resize(41);
   const MapSplit one_way = choose_split(scans);
   EXPECT_EQ(segments_yaml(one_way.map), "[[0, 0.1], [0.2, 0.3], [0.4, 0.5], [0.6, 0.7], [0.8, 0.9]]");
   EXPECT_EQ(segments_yaml(one_way.run), "[[0.1, 0.2], [0.3, 0.4], [0.5, 0.6], [0.7, 0.8], [0.9, 1]]");
+  EXPECT_EQ(segments_yaml(choose_split(scans, 1).map), "[[0, 0.5]]");
   EXPECT_EQ(segments_yaml(split_drive(scans, 3, 0.5).run), "[[0.1667, 0.3333], [0.5, 0.6667], [0.8333, 1]]");
 }
 
