@@ -18,8 +18,7 @@ class AtomicFiles {
   AtomicFiles(const AtomicFiles&) = delete;
   AtomicFiles& operator=(const AtomicFiles&) = delete;
 
-  /// Throws ConfigError if a file exists and may not be replaced: for that to be said before anything is
-  /// computed.
+  /// Throws ConfigError if a file exists and may not be replaced. Asked before anything is computed for it.
   void check(const std::filesystem::path& file) const { static_cast<void>(target_of(file)); }
   /// Writes a file under its temporary name. Folders above it are made. Throws as check() does.
   void add(const std::filesystem::path& file, std::string_view content);
