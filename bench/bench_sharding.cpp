@@ -98,16 +98,21 @@ std::uintmax_t bytes_in(const fs::path& folder) {
   return bytes;
 }
 
-/// Journals of as many trials as the benchmark's argument says, read by `read` from their folder.
+/// Journals of as many trials as the benchmark's argument says, read by `read` from their folder. Their
+/// indexes are there where they are read.
 template <class Read>
-void with_journals(benchmark::State& state, const Read& read) {
+void with_journals(benchmark::State& state, JournalScan::Closed closed, const Read& read) {
   const test::TemporaryFolder folder;
   const auto trials = static_cast<std::size_t>(state.range(0));
   const Manifest manifest = manifest_of(trials);
   write_journals(folder.path(), manifest);
+  const auto scan_all = [&] {
+    return JournalScan(
+        journals_folder(folder.path()), [](const std::string&) {}, closed);
+  };
+  if (closed == JournalScan::Closed::indexed) scan_all();
   for ([[maybe_unused]] auto _ : state) {
-    const JournalScan scan(journals_folder(folder.path()), [](const std::string&) {});
-    read(manifest, scan, folder.path());
+    read(manifest, scan_all(), folder.path());
   }
   state.counters["journal_bytes_per_trial"] =
       static_cast<double>(bytes_in(journals_folder(folder.path()))) / static_cast<double>(trials);
@@ -115,16 +120,18 @@ void with_journals(benchmark::State& state, const Read& read) {
 }
 
 void status_of_all(benchmark::State& state) {
-  with_journals(state, [](const Manifest& manifest, const JournalScan& scan, const fs::path& /*folder*/) {
-    benchmark::DoNotOptimize(status_of(manifest, scan));
-  });
+  with_journals(state, JournalScan::Closed::indexed,
+                [](const Manifest& manifest, const JournalScan& scan, const fs::path& /*folder*/) {
+                  benchmark::DoNotOptimize(status_of(manifest, scan));
+                });
 }
 
 void merge_all(benchmark::State& state) {
-  with_journals(state, [&](const Manifest& manifest, const JournalScan& scan, const fs::path& folder) {
-    if (!merge_shards(manifest, scan, {folder / "merged"}).run.complete)
-      state.SkipWithError("trials are missing");
-  });
+  with_journals(state, JournalScan::Closed::whole,
+                [&](const Manifest& manifest, const JournalScan& scan, const fs::path& folder) {
+                  if (!merge_shards(manifest, scan, {folder / "merged"}).run.complete)
+                    state.SkipWithError("trials are missing");
+                });
 }
 
 void many_trials(benchmark::internal::Benchmark* b) {
