@@ -1,4 +1,4 @@
-# What demo and test share; to be sourced.
+# What scripts share; to be sourced.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # Real logs, where they are at hand.
@@ -6,3 +6,13 @@ if [ -z "${GLOCAL_DATASETS:-}" ] && [ -d ../shared/datasets ]; then
   GLOCAL_DATASETS=$(cd ../shared/datasets && pwd)
   export GLOCAL_DATASETS
 fi
+
+# From here on temporary files are in memory, where that has room, until the script ends: results are synced to their disk trial by trial.
+keep_temporary_files_in_memory() {
+  local memory=/dev/shm
+  [ "$(df --output=avail $memory 2>/dev/null | tail -n 1)" -gt 4000000 ] 2>/dev/null || memory=${TMPDIR:-/tmp}
+  TMPDIR=$(mktemp -d "$memory/glocal.XXXXXX")
+  chmod 711 "$TMPDIR" # daemons of other users pass through it
+  export TMPDIR
+  trap 'rm -rf "$TMPDIR"' EXIT
+}
