@@ -10,7 +10,10 @@ fi
 # From here on temporary files are in memory, where that has room, until the script ends: results are synced to their disk trial by trial.
 keep_temporary_files_in_memory() {
   local memory=/dev/shm
-  [ "$(df --output=avail $memory 2>/dev/null | tail -n 1)" -gt 4000000 ] 2>/dev/null || memory=${TMPDIR:-/tmp}
+  # Tests build programs and run them there.
+  if ! [ "$(df --output=avail $memory 2>/dev/null | tail -n 1)" -gt 4000000 ] 2>/dev/null || grep -q " $memory .*noexec" /proc/mounts; then
+    memory=${TMPDIR:-/tmp}
+  fi
   TMPDIR=$(mktemp -d "$memory/glocal.XXXXXX")
   chmod 711 "$TMPDIR" # daemons of other users pass through it
   export TMPDIR
