@@ -47,9 +47,11 @@ std::string told_trials(const std::vector<std::size_t>& trials) {
   return fmt::format("{} trials of {} variants", all, trials.size());
 }
 
-/// What is told of a case, before and behind its trials.
+/// What is told of a case, in this order.
 struct AboutCase {
-  std::string loaded, budget;
+  std::string loaded;
+  std::vector<std::size_t> trials;  ///< Of each variant.
+  std::string budget;
 };
 
 void check(const std::string& file, const CheckOptions& options, Context& context) {
@@ -64,19 +66,18 @@ void check(const std::string& file, const CheckOptions& options, Context& contex
     if (!variant.case_name.empty()) what += (file.empty() ? "" : ", ") + ("case " + variant.case_name);
     if (const auto why = why_never_declared(variant.experiment, loaded, localizer))
       spdlog::warn("{}: {}", what, *why);
-    said->second = {fmt::format("{}: ok, {} map points, {} observations", what, loaded.map->points().size(),
-                                loaded.drive.samples.size()),
-                    options.budget_ms
-                        ? told_budget(*options.budget_ms, variant.experiment, context.catalog, loaded)
-                        : ""};
+    said->second.loaded = fmt::format("{}: ok, {} map points, {} observations", what,
+                                      loaded.map->points().size(), loaded.drive.samples.size());
+    if (options.budget_ms)
+      said->second.budget = told_budget(*options.budget_ms, variant.experiment, context.catalog, loaded);
   };
-  const std::vector<std::size_t> counts = count_trials(variants, loader, tell);
-  std::map<std::string, std::vector<std::size_t>> trials;
-  for (std::size_t i = 0; i < variants.size(); ++i) trials[variants[i].case_name].push_back(counts[i]);
+  const std::vector<std::size_t> trials = count_trials(variants, loader, tell);
+  for (std::size_t i = 0; i < variants.size(); ++i)
+    answers.at(variants[i].case_name).trials.push_back(trials[i]);
   for (const Variant& variant : variants) {  // In the order of the first variant of each.
     const auto said = answers.extract(variant.case_name);
     if (said.empty()) continue;
-    answer("{}, {}{}\n", said.mapped().loaded, told_trials(trials[said.key()]), said.mapped().budget);
+    answer("{}, {}{}\n", said.mapped().loaded, told_trials(said.mapped().trials), said.mapped().budget);
   }
 }
 

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "glocal/words.hpp"
+
 namespace glocal {
 
 /// The fields of a line; blanks, tabs and carriage returns part them.
@@ -28,9 +30,6 @@ template <class Enum>
   if (at == names.end()) return std::nullopt;
   return static_cast<Enum>(at - names.begin());
 }
-
-/// A text without the mark that some programs write before UTF-8.
-[[nodiscard]] std::string_view without_byte_order_mark(std::string_view text);
 
 /// The lines of a text, which must outlive this.
 class TextLines {

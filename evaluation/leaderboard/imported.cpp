@@ -44,9 +44,7 @@ class PosesReader {
     std::istringstream lines(content_of(poses_.file));
     std::string line;
     std::getline(lines, line);
-    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-    if (line.starts_with(byte_order_mark)) line.erase(0, byte_order_mark.size());
-    read_header(cells_of(line));
+    read_header(cells_of(std::string(without_byte_order_mark(line))));
     const bool is_table = faults_.empty();
     while (is_table && std::getline(lines, line)) {
       ++line_;

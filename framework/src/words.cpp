@@ -76,6 +76,12 @@ std::size_t utf8_length(std::string_view text) {
   return bytes == 1 && code == U'\uFFFD' ? 0 : bytes;
 }
 
+std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view mark = "\xEF\xBB\xBF";
+  if (text.starts_with(mark)) text.remove_prefix(mark.size());
+  return text;
+}
+
 std::string printable(std::string_view text) {
   return escaped(text, true);
 }

@@ -36,6 +36,14 @@ TEST(Words, TextStaysAsItIs) {
   }
 }
 
+TEST(Words, AByteOrderMarkIsLeftOutWhereItIsFirst) {
+  for (const char* text : {"", "a", "a\xef\xbb\xbf", "\xef\xbb"})
+    EXPECT_EQ(without_byte_order_mark(text), text);
+  EXPECT_EQ(without_byte_order_mark("\xef\xbb\xbf"
+                                    "case,seed"),
+            "case,seed");
+}
+
 TEST(Words, BytesThatAreNoUtf8AreReplaced) {
   const std::string instead = "\xef\xbf\xbd";
   EXPECT_EQ(printable("\xff"

@@ -13,6 +13,9 @@ namespace glocal {
 /// forms, no surrogates, at most U+10FFFF). The text is not empty.
 [[nodiscard]] std::size_t utf8_length(std::string_view text);
 
+/// A text without the mark that some programs write before UTF-8.
+[[nodiscard]] std::string_view without_byte_order_mark(std::string_view text);
+
 /// The text with control characters as \u001b and bytes that are no UTF-8 as U+FFFD. Newlines and tabs stay.
 [[nodiscard]] std::string printable(std::string_view text);
 

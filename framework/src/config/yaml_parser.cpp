@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "config/text_file.hpp"
+#include "glocal/words.hpp"
 
 namespace glocal {
 namespace {
@@ -223,8 +224,7 @@ std::string hint(const std::string& message) {
 std::optional<YamlNode> parse(const std::string& text, const std::shared_ptr<const Origin>& origin,
                               bool with_lines, std::vector<Fault>& faults) {
   // Without the byte order mark, yaml-cpp's positions are those in the text.
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  const std::string source = text.starts_with(byte_order_mark) ? text.substr(byte_order_mark.size()) : text;
+  const std::string source(without_byte_order_mark(text));
   TreeBuilder builder(source, origin, with_lines, faults);
   try {
     std::istringstream stream(source);
