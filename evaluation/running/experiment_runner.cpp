@@ -249,7 +249,9 @@ void ExperimentRunner::run_one(Variant& variant) {
   journal.close();
   scan.update();
   description["peak_rss_mb"] = peak_rss_mb();
-  if (const auto mean = others_load.mean()) description["others_load"] = *mean;
+  // What others did while an earlier process ran the first trials, nobody knows.
+  const auto mean = to_run.size() == trials.count() ? others_load.mean() : std::nullopt;
+  if (mean) description["others_load"] = *mean;
   put_in_place(folder, variant.name, put_together(folder, description, trials, complete));
   if (!complete)
     callbacks_.warn(fmt::format("interrupted: {} of {} trials were finished and kept", results_.back().trials,

@@ -2,10 +2,12 @@
 
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <thread>
 
 #include "evaluation/results/results_folder.hpp"
 #include "files.hpp"
@@ -119,6 +121,24 @@ TEST_F(RunExperiment, IsStoppedAndGoneOnWith) {
   EXPECT_EQ(whole.variants.front().trials, begun.trials);
   EXPECT_THAT(notes, ElementsAre(HasSubstr("goes on where an earlier run has stopped: 2 of ")));
   EXPECT_EQ(read_results(folder_.path() / "out").machine.jobs, 1U);
+}
+
+TEST_F(RunExperiment, TellsTheLoadOfOthersOnlyWhereItRanAllTrials) {
+  // Less than a second says nothing.
+  const auto summary_of_a_run = [&](bool is_stopped) {
+    bool is_begun = false;
+    RunObserver observer;
+    observer.trial = [&](const TrialEnd&) {
+      if (!is_begun) std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+      is_begun = true;
+    };
+    observer.stop = [&] { return is_stopped && is_begun; };
+    EXPECT_EQ(run(to("out"), observer).complete, !is_stopped);
+    return read_results(folder_.path() / "out").summary;
+  };
+  const auto stopped = summary_of_a_run(true);
+  if (!stopped.contains("others_load")) GTEST_SKIP() << "the system does not tell";
+  EXPECT_FALSE(summary_of_a_run(false).contains("others_load"));
 }
 
 TEST_F(RunExperiment, TellsThatItsTrialsRanSideBySideAtTimes) {
