@@ -94,6 +94,13 @@ struct CloudLayout {
   std::uint32_t height = 0, width = 0, point_step = 0, row_step = 0;
 };
 
+/// How long a point's time of 1 is, s. Whole numbers are ns. So are others that are too large for seconds:
+/// Livox's drivers write stamps in ns as float64.
+double unit_of_times(Scalar type, double latest) {
+  constexpr double ns = 1e-9;
+  return clouds::is_whole(type) || !fault_of_stamp(latest).empty() ? ns : 1.0;
+}
+
 void check_layout(const MessageReader& reader, const CloudLayout& layout, const CloudFields& fields,
                   std::size_t bytes) {
   for (const auto& field : fields) {
@@ -162,8 +169,7 @@ PointCloud read_point_cloud(const RecordedMessage& message) {
         return clouds::number_at(point + field.offset, field.type, order);
       };
       const double x = value(*fields[0]), y = value(*fields[1]), z = value(*fields[2]);
-      const double time =
-          fields[3] ? value(*fields[3]) * (clouds::is_whole(fields[3]->type) ? 1e-9 : 1.0) : 0.0;
+      const double time = fields[3] ? value(*fields[3]) : 0.0;
       const auto is_place = [](double v) { return std::abs(v) <= farthest_m; };
       if (!is_place(x) || !is_place(y) || !is_place(z) || !std::isfinite(time)) {
         ++cloud.left_out;
@@ -175,7 +181,10 @@ PointCloud read_point_cloud(const RecordedMessage& message) {
   }
   if (cloud.times.empty()) return cloud;
   const auto [first, last] = std::minmax_element(cloud.times.begin(), cloud.times.end());
-  if (const std::string fault = fault_of_scan_times(*first, *last); !fault.empty()) reader.refuse(fault);
+  const double unit = unit_of_times(fields[3]->type, *last);
+  if (const std::string fault = fault_of_scan_times(unit * *first, unit * *last); !fault.empty())
+    reader.refuse(fault);
+  for (double& time : cloud.times) time *= unit;
   return cloud;
 }
 

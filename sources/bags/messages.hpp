@@ -46,7 +46,8 @@ struct PointCloud {
   std::vector<double> times;  ///< s, one for each point, empty if not known. Their origin is the driver's.
   std::size_t left_out = 0;
 };
-/// Times are of the field t, time, timestamp or offset_time: whole numbers are ns, others s.
+/// Times are of the field t, time, timestamp or offset_time: whole numbers are ns, others s, or ns where they
+/// are too large for stamps in s.
 [[nodiscard]] PointCloud read_point_cloud(const RecordedMessage& message);
 
 /// nav_msgs/Odometry

@@ -14,6 +14,7 @@ namespace glocal::test::bags::messages_test {
 namespace {
 
 using namespace glocal::bags;
+using testing::DoubleNear;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -160,6 +161,38 @@ TEST_P(Messages, OfCloudsHaveTheirFinitePoints) {
     EXPECT_EQ(points.left_out, 1U);
     expect_cuts_are_refused(m, read_point_cloud, m.bytes.size() - 1);
   }
+}
+
+/// A cloud with a point at (1, 2, 3) for each stamp, which are float64.
+Writer stamped_cloud(Writer fields, const std::vector<double>& stamps) {
+  constexpr std::uint8_t float32 = 7, float64 = 8;
+  constexpr std::uint32_t point_step = 20;
+  const auto n = static_cast<std::uint32_t>(stamps.size());
+  fields.header("lidar").number<std::uint32_t>(1).number(n).number<std::uint32_t>(4);
+  const auto field = [&](const std::string& name, std::uint32_t offset, std::uint8_t type) {
+    fields.text(name).number(offset).number(type).number<std::uint32_t>(1);
+  };
+  field("x", 0, float32);
+  field("y", 4, float32);
+  field("z", 8, float32);
+  field("timestamp", 12, float64);
+  fields.number<std::uint8_t>(0).number(point_step).number(n * point_step);
+  std::string data;
+  for (const double stamp : stamps) data += le(1.0F) + le(2.0F) + le(3.0F) + le(stamp);
+  return fields.raw(data).number<std::uint8_t>(1);
+}
+
+TEST_P(Messages, OfCloudsHaveTheirTimesInSecondsWhateverTheirUnit) {
+  const auto times = [&](const std::vector<double>& stamps) {
+    return read_point_cloud(message(stamped_cloud(writer(), stamps), "sensor_msgs/PointCloud2")).times;
+  };
+  EXPECT_THAT(times({0.0, 0.1}), ElementsAre(0.0, 0.1));
+  EXPECT_THAT(times({1.7e9, 1.7e9 + 0.125}), ElementsAre(1.7e9, 1.7e9 + 0.125));
+  EXPECT_THAT(times({1.7e18, 1.7e18 + 1.25e8}), ElementsAre(1.7e9, DoubleNear(1.7e9 + 0.125, 1e-6)));
+  // Of a lidar whose clock counts from its start.
+  EXPECT_THAT(times({7.0e10, 7.01e10}), ElementsAre(DoubleNear(70.0, 1e-9), DoubleNear(70.1, 1e-9)));
+  EXPECT_THAT(config_error("", [&] { times({0.0, 1.7e9}); }), HasSubstr("at most 1000 s apart"));
+  EXPECT_THAT(config_error("", [&] { times({0.0, 1.7e18}); }), HasSubstr("at most 1000 s apart"));
 }
 
 TEST_P(Messages, SayWhatIsWrongWithThem) {
