@@ -183,6 +183,17 @@ void ContentsReader::choose_frames() {
   choose_odometry_topic(bases);
 }
 
+/// Of frames that may be the robot's, the first one that tf connects with scans.
+const std::string& ContentsReader::robot_of(const std::vector<std::string>& bases) const {
+  const auto has_scans = [&](const std::string& base) {
+    return std::any_of(contents_.scans.begin(), contents_.scans.end(), [&](const ScanTopic& scan) {
+      return contents_.tree.path(base, scan.frame).has_value();
+    });
+  };
+  const auto robot = std::find_if(bases.begin(), bases.end(), has_scans);
+  return robot == bases.end() ? bases.back() : *robot;
+}
+
 void ContentsReader::choose_odometry_topic(const std::vector<std::string>& bases) {
   DriveContents& c = contents_;
   std::vector<std::string> topics;
@@ -197,7 +208,9 @@ void ContentsReader::choose_odometry_topic(const std::vector<std::string>& bases
   if (topics.size() > 1)
     fail(fmt::format("has several topics with odometry; set {} to one of {}", name_of("odometry"),
                      listed(topics)));
-  const auto& [poses, frame, child] = odometry_.at(topics.front());
+  const auto& [poses, frame, named_child] = odometry_.at(topics.front());
+  // Drivers that name none mean the robot.
+  const std::string& child = named_child.empty() ? robot_of(bases) : named_child;
   c.odometry = topics.front();
   c.odom_frame = frame;
   c.base_frame = wanted_.base_frame.empty() ? child : wanted_.base_frame;

@@ -88,6 +88,7 @@ class ContentsReader {
   [[nodiscard]] std::string name_of(std::string_view key) const;
   void take_scan(const RecordedMessage& message);
   void choose_frames();
+  [[nodiscard]] const std::string& robot_of(const std::vector<std::string>& bases) const;
   void choose_odometry_topic(const std::vector<std::string>& bases);
   void check_sensors();
   [[nodiscard]] std::string tree_text() const;

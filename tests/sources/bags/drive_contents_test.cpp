@@ -70,6 +70,16 @@ TEST_F(DriveOf, OdometryOfATopicServesWhereTfHasNone) {
   EXPECT_NEAR(contents.odometry_at(second / 2, second)->y, 0.5, 1e-12);
 }
 
+TEST_F(DriveOf, OdometryThatNamesNoChildFrameIsTheRobots) {
+  recording_.transform("base_link", "laser", 0, {}, "/tf_static");
+  recording_.odometry("/odom", 0, "odom", "", {});
+  recording_.scan("/scan", 0, {.ranges = {1.0F}});
+  EXPECT_EQ(read().base_frame, "base_link");
+  EXPECT_EQ(read({.base_frame = "laser"}).base_frame, "laser");
+  recording_.transform("base_footprint", "base_link", 0, {}, "/tf_static");
+  EXPECT_EQ(read().base_frame, "base_footprint");
+}
+
 TEST_F(DriveOf, OneTopicOfSeveralWithScansIsToBeNamed) {
   add_robot("base_link");
   for (const int s : {0, 1, 2})
