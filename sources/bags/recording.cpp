@@ -16,6 +16,7 @@ namespace fs = std::filesystem;
 
 struct Recording::Part {
   std::unique_ptr<RecordingFile> file;
+  Reading reading;
   std::vector<std::size_t> connections;  ///< Index in the recording of each of the file's.
   std::optional<FileMessage> message;    ///< The next one.
 };
@@ -85,7 +86,8 @@ void Recording::warn_once(std::vector<std::string>& warnings, const std::string&
 void Recording::open(const fs::path& file, Damage damage) {
   const auto note = [warnings = warnings_.get()](const std::string& text) { warn_once(*warnings, text); };
   auto part = std::make_unique<Part>();
-  part->file = open_file(file, {note, damage});
+  part->reading = {note, damage};
+  part->file = open_file(file, part->reading);
   format_ = part->file->format();
   for (const Connection& connection : part->file->connections()) {
     // Files of one recording have the same connections.
@@ -109,6 +111,7 @@ void Recording::rewind(const std::optional<std::set<std::string>>& topics) {
   }
   is_begun_ = false;
   messages_read_ = 0;
+  damaged_ = 0;
   messages_announced_ = 0;
   for (const auto& [topic, messages] : announced_)
     messages_announced_ += !topics || topics->contains(topic) ? messages : 0;
@@ -128,7 +131,7 @@ double Recording::share_read() const {
   return shares / static_cast<double>(parts_.size());
 }
 
-std::optional<RecordedMessage> Recording::next() {
+bool Recording::find_next() {
   // Files are first read here, not when the recording is opened or rewound.
   for (const auto& part : parts_) {
     if (!is_begun_ || part.get() == last_) part->message = part->file->next();
@@ -139,21 +142,46 @@ std::optional<RecordedMessage> Recording::next() {
     if (part->message && (last_ == nullptr || part->message->stamp_ns < last_->message->stamp_ns))
       last_ = part.get();
   }
-  if (last_ == nullptr) {
-    compare_counts();
-    progress_(1.0);
-    return std::nullopt;
+  return last_ != nullptr;
+}
+
+bool Recording::unpack(const FileMessage& message) {
+  try {
+    unpacked_ = unpacked_message(message.bytes, message.place);
+    return true;
+  } catch (const ConfigError& error) {
+    if (damaged_++ == 0)
+      last_->reading.note_damage(error, "this message is left out, as are others that are damaged");
+    if (!first_damage_) first_damage_ = error;
+    return false;
   }
-  constexpr std::uint64_t seldom = 64;
-  if (++messages_read_ % seldom == 0) progress_(share_read());
-  const FileMessage& message = *last_->message;
-  const Connection& connection = (*connections_)[last_->connections[message.connection]];
-  std::string_view bytes = message.bytes;
-  if (connection.encoding == "cdr" && is_zstd(bytes)) {
-    unpacked_ = unpacked_message(bytes, message.place);
-    bytes = unpacked_;
+}
+
+void Recording::tell_damaged_messages() {
+  if (damaged_ == 0) return;
+  // Where nothing is whole nothing can be read.
+  if (!is_any_whole_) throw ConfigError(*first_damage_);
+  if (damaged_ > 1)
+    warn_once(*warnings_, fmt::format("{}: {} messages are damaged and left out",
+                                      first_damage_->faults().front().file, damaged_));
+}
+
+std::optional<RecordedMessage> Recording::next() {
+  while (find_next()) {
+    constexpr std::uint64_t seldom = 64;
+    if (++messages_read_ % seldom == 0) progress_(share_read());
+    const FileMessage& message = *last_->message;
+    const Connection& connection = (*connections_)[last_->connections[message.connection]];
+    const bool is_packed = connection.encoding == "cdr" && is_zstd(message.bytes);
+    if (is_packed && !unpack(message)) continue;
+    is_any_whole_ = true;
+    return RecordedMessage{&connection, message.stamp_ns, is_packed ? unpacked_ : message.bytes,
+                           message.place};
   }
-  return RecordedMessage{&connection, message.stamp_ns, bytes, message.place};
+  tell_damaged_messages();
+  compare_counts();
+  progress_(1.0);
+  return std::nullopt;
 }
 
 }  // namespace glocal::bags

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "glocal/error.hpp"
 #include "sources/bags/file_bytes.hpp"
 
 namespace glocal::bags {
@@ -43,7 +44,7 @@ struct RecordedMessage {
 /// `sensor_msgs/msg/LaserScan` is `sensor_msgs/LaserScan`.
 [[nodiscard]] std::string normal_type(std::string_view type);
 
-class RecordingFile;
+struct FileMessage;
 
 /// What becomes of a recording that is damaged behind something whole.
 enum class Damage {
@@ -89,6 +90,11 @@ class Recording {
 
   static void warn_once(std::vector<std::string>& warnings, const std::string& text);
   void open(const std::filesystem::path& file, Damage damage);
+  /// Goes to the next message; false at the end.
+  bool find_next();
+  /// Unpacks a message that was compressed by itself; false if it is damaged and left out.
+  bool unpack(const FileMessage& message);
+  void tell_damaged_messages();
   /// With what metadata.yaml says, once all was read.
   void compare_counts();
   [[nodiscard]] double share_read() const;
@@ -102,6 +108,9 @@ class Recording {
   Part* last_ = nullptr;                            ///< Whose message was given out last.
   bool is_begun_ = false;                           ///< Whether each part has its next message.
   std::string unpacked_;                            ///< The last message, if it was compressed by itself.
+  std::uint64_t damaged_ = 0;                       ///< Messages since the last rewind().
+  std::optional<ConfigError> first_damage_;         ///< Of a message.
+  bool is_any_whole_ = false;                       ///< Whether a message was given out.
   std::map<std::string, std::uint64_t> announced_;  ///< Messages by topic; empty if nobody says it.
   std::string metadata_of_;                         ///< The folder whose metadata.yaml says it.
   std::function<void(double)> progress_ = [](double) {};

@@ -199,6 +199,28 @@ TEST_F(Recordings, ChunksThatAreDamagedAreLeftOut) {
   EXPECT_THAT(strict_fault(), HasSubstr("get a fresh copy"));
 }
 
+TEST_F(Recordings, CompressedMessagesThatAreDamagedAreLeftOut) {
+  const auto whole = [](std::uint64_t at, const std::string& text) {
+    return mcap_message(1, at, packed("zstd", text));
+  };
+  const auto cut = [](std::uint64_t at, const std::string& text) {
+    const std::string bytes = packed("zstd", text);
+    return mcap_message(1, at, bytes.substr(0, bytes.size() - 1));
+  };
+  folder_.write("file",
+                mcap_file(two_channels + whole(1, "one") + cut(2, "two") + whole(3, "three") + cut(4, "4")));
+  Recording recording(folder_ / "file");
+  EXPECT_THAT(content(recording), ElementsAre("1 /a one", "3 /a three"));
+  recording.rewind();
+  EXPECT_THAT(content(recording), ElementsAre("1 /a one", "3 /a three"));
+  EXPECT_THAT(recording.warnings(),
+              ElementsAre(HasSubstr("this message is left out, as are others that are damaged"),
+                          HasSubstr("file: 2 messages are damaged and left out")));
+  EXPECT_THAT(strict_fault(), HasSubstr("does not unpack to the 3 bytes that are announced"));
+  EXPECT_THAT(fault(mcap_file(two_channels + cut(2, "two") + cut(4, "4"))),
+              HasSubstr("does not unpack to the 3 bytes that are announced"));
+}
+
 TEST_F(Recordings, OfRos1NeedNoIndex) {
   for (const std::string compression : {"none", "bz2", "lz4"}) {
     EXPECT_THAT(read(ros1_magic + ros1_bag_header() +
