@@ -17,6 +17,17 @@ namespace {
 /// 0.25, which would make everything unknown free.
 constexpr float saved_unknown = 205.0F;
 
+std::string in_small_letters(std::string text) {
+  for (char& c : text) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return text;
+}
+
+bool is_mode(const std::string& mode) {
+  return mode == "trinary" || mode == "scale" || mode == "raw";
+}
+
 bool is_saved_unknown(float grey) {
   return std::round(grey * 255.0F) == saved_unknown;
 }
@@ -107,10 +118,11 @@ void describe(ParamVisitor& v, RosMapFile& p) {
   v.field("occupied_thresh", p.occupied_thresh,
           {.doc = "Darker than this is occupied.", .min = 0.0, .max = 1.0});
   v.field("free_thresh", p.free_thresh, {.doc = "Lighter than this is free.", .min = 0.0, .max = 1.0});
-  v.field("mode", p.mode, {.doc = "How pixels become cells.", .choices = {"trinary", "scale", "raw"}});
+  v.field("mode", p.mode, {.doc = "How pixels become cells: trinary, scale or raw, in letters of any case."});
   v.require(p.origin.size() != 3 || std::isfinite(p.origin[0] + p.origin[1]), "origin",
             "must begin with two finite numbers, x and y");
-  v.require(p.free_thresh < p.occupied_thresh, "free_thresh", "must be below occupied_thresh");
+  v.require(p.free_thresh <= p.occupied_thresh, "free_thresh", "must not be above occupied_thresh");
+  v.require(is_mode(in_small_letters(p.mode)), "mode", "must be trinary, scale or raw");
 }
 
 void describe(ParamVisitor& v, RosMap::Params& p) {
@@ -121,6 +133,7 @@ RosMap::RosMap(const Params& params, const SourceSetup& setup) : name_(params.pa
   ParamsOf<RosMapFile> file;
   read_yaml(params.path.resolved, file);
   file_ = std::move(file.value);
+  file_.mode = in_small_letters(file_.mode);
   // There are tools that write it for maps that are not turned, and map servers take it for that.
   double& yaw = file_.origin[2];
   if (std::isnan(yaw)) {

@@ -74,6 +74,13 @@ TEST(RosMap, RawTakesBytesAsPerCent) {
               ElementsAre(o, o, u, u, f, f, u, u));
 }
 
+TEST(RosMap, IsReadAsMapServersDoIt) {
+  const Row row({0, 100, 255});
+  EXPECT_THAT(row.load(thresholds(0.5, 0.5)).grid.cells, ElementsAre(o, o, f));
+  EXPECT_THAT(row.load(thresholds(0.65, 0.2) + "mode: Trinary\n").grid.cells, ElementsAre(o, u, f));
+  EXPECT_THAT(row.load(thresholds(0.65, 0.2) + "mode: RAW\n").grid.cells, ElementsAre(f, o, u));
+}
+
 TEST(RosMap, AlphaIsAColourOrMakesUnknown) {
   const test::TemporaryFolder folder;
   // Black opaque, black transparent, white opaque, white transparent.
@@ -184,8 +191,10 @@ TEST(RosMap, NamesThePlaceOfAFault) {
   EXPECT_THAT(fault_of("image: map.pgm\nresolution: -0.1\norigin: [0, 0, 0]\n"),
               HasSubstr("-0.1 is out of range"));
   EXPECT_THAT(fault_of("resolution: 1\n"), HasSubstr("missing key 'image'"));
-  EXPECT_THAT(row.fault_of(thresholds(0.2, 0.65)), HasSubstr("free_thresh: must be below occupied_thresh"));
-  EXPECT_THAT(row.fault_of("mode: fancy\n"), HasSubstr("mode"));
+  EXPECT_THAT(row.fault_of(thresholds(0.2, 0.65)),
+              HasSubstr("free_thresh: must not be above occupied_thresh"));
+  EXPECT_THAT(row.fault_of("mode: fancy\n"),
+              HasSubstr("map.yaml:4:7: error: mode: must be trinary, scale or raw"));
 }
 
 TEST(RosMap, RefusesAMapWithoutOccupiedCell) {
