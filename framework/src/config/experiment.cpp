@@ -298,7 +298,7 @@ void add_variants(const YamlNode& experiment, const Product& product, const std:
   const std::size_t first = variants.size();
   if (all.variants.empty()) {
     variants.push_back({"", std::move(params.experiment)});
-  } else if (can_be_held(tree, all) && first + all.variants.size() <= most_variants) {
+  } else if (can_be_held(tree, all) && first + all.size() <= most_variants) {
     std::vector<Variant> own = read_all(tree, all, catalog, of_base, faults);
     std::move(own.begin(), own.end(), std::back_inserter(variants));
   } else {

@@ -1,6 +1,8 @@
 // Which experiments an experiment file asks for.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -96,6 +98,9 @@ struct VariantChanges {
 struct Expansion {
   std::vector<VariantChanges> variants;  ///< The settings; none if there are neither these nor seeds.
   std::vector<std::uint64_t> seeds;      ///< Each variant is run with each; none: with the experiment's.
+
+  /// Of all variants with all seeds.
+  [[nodiscard]] std::size_t size() const { return variants.size() * std::max<std::size_t>(seeds.size(), 1); }
 };
 
 /// All settings, as in settings_of(), and all seeds. What is wrong goes to `faults`; too many variants are

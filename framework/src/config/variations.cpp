@@ -143,11 +143,10 @@ Expansion expand(const Variations& variations, AnyParams& experiment, std::vecto
   if (!all.seeds.empty()) check_seed_changes(all.variants, faults);
   if (all.variants.empty() && !all.seeds.empty())
     all.variants.push_back({"", variations.seeds.written->place, {}});
-  const std::size_t n = all.variants.size() * std::max<std::size_t>(all.seeds.size(), 1);
-  if (n > most_variants && !all.seeds.empty()) {
+  if (all.size() > most_variants && !all.seeds.empty()) {
     add_fault(faults, all.variants.front().place,
               "variants: {} settings and {} seeds make {} variants, at most {} are allowed; leave some out",
-              all.variants.size(), all.seeds.size(), n, most_variants);
+              all.variants.size(), all.seeds.size(), all.size(), most_variants);
     return {};
   }
   return all;

@@ -73,6 +73,12 @@ TEST_F(ProductsTest, EachMethodMeetsEachCaseWithEachSeed) {
   EXPECT_THAT(all[7].values, ElementsAre(Pair("method", "slow")));
 }
 
+TEST_F(ProductsTest, AreNoMoreThanTenThousandWithTheirSeeds) {
+  EXPECT_EQ(read("methods: [fast, slow]\ncases: [room]\nseeds: 1..5000\n").size(), 10'000U);
+  EXPECT_THAT(faults_of("methods: [fast, slow]\ncases: [room]\nseeds: 1..5001\n"),
+              HasSubstr("e.yaml:5:8: error: variants: are more than 10000"));
+}
+
 TEST_F(ProductsTest, NeedNoFile) {
   const auto all = read_variants(
       {}, {{"methods", "[fast]"}, {"cases", "[room]"}, {"seeds", "1..3"}, {"name", "n"}}, catalog_);
