@@ -128,10 +128,13 @@ void write_board_page(const BoardOptions& options) {
 }
 
 /// What makes an entry anew.
-std::string renewal(const BoardOptions& options, const BoardEntry& entry) {
-  const std::string board = options.board.empty() ? "" : " --board " + shell_word(options.board);
-  return fmt::format("{2} --out results/{0}/{1} && glocal leaderboard add results/{0}/{1}{3} --force",
-                     entry.suite, entry.method, entry.command(), board);
+std::string renewal(const BoardOptions& options, const Suite& suite, const BoardEntry& entry) {
+  const auto builtin = find_builtin_part(PartKind::suite, suite.name);
+  const bool is_builtin = builtin && builtin->file == suite.file;
+  const std::string named = is_builtin ? entry.suite : shell_word(suite.file.string());
+  return fmt::format("{2} --out results/{0}/{1} && glocal leaderboard add results/{0}/{1}{3}{4} --force",
+                     entry.suite, entry.method, entry.command(named), is_builtin ? "" : " --suite " + named,
+                     options.board.empty() ? "" : " --board " + shell_word(options.board));
 }
 
 void require_place(const BoardOptions& options, const BoardEntry& entry) {
@@ -274,7 +277,7 @@ std::size_t check_suite(const BoardOptions& options, const Suite& suite, Context
     if (n > most_shown) answer("  and {} more\n", n - most_shown);
     if (n > 0)
       answer("renew {} with:\n  {}\n", entry_file(folder, suite.id(), check.stored.method).string(),
-             renewal(options, check.stored));
+             renewal(options, suite, check.stored));
     if (n > 0) context.exit_code = 1;
   }
   return checks.size();

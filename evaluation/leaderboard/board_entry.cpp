@@ -147,8 +147,8 @@ const CaseResult* BoardEntry::find(const std::string& case_name, std::uint64_t s
   return found == results.end() ? nullptr : &*found;
 }
 
-std::string BoardEntry::command() const {
-  return fmt::format("glocal run --suite {} --method {}{}", suite, method,
+std::string BoardEntry::command(const std::string& suite_named) const {
+  return fmt::format("glocal run --suite {} --method {}{}", suite_named, method,
                      share < 1.0 ? fmt::format(" --share {}", share) : "");
 }
 

@@ -60,8 +60,8 @@ struct BoardEntry {
   std::vector<CaseResult> results;  ///< In the order of the suite, each with all seeds.
 
   [[nodiscard]] const CaseResult* find(const std::string& case_name, std::uint64_t seed) const;
-  /// What runs a method of that name on these starts.
-  [[nodiscard]] std::string command() const;
+  /// What runs a method of that name on these starts of a suite, which goes by its name or its file.
+  [[nodiscard]] std::string command(const std::string& suite_named) const;
   /// "mcl", or "mcl (share 0.05)" where it has not all starts.
   [[nodiscard]] std::string label() const;
 };

@@ -69,7 +69,7 @@ class RunReader {
     if (entry == entries.end()) {
       entries.push_back({.suite = suite_, .method = method_, .share = share_, .results = {}});
       entry = std::prev(entries.end());
-      entry->provenance = provenance_of_entry(run_, entry->command());
+      entry->provenance = provenance_of_entry(run_, entry->command(suite_));
     } else if (entry->share != share_) {
       throw ConfigError(
           run_.folder,

@@ -145,6 +145,17 @@ TEST_F(Leaderboard, ACheckSaysWhichStartsEndOtherwise) {
   EXPECT_THAT(named.out, HasSubstr(" --board " + file("leaderboard") + " --force\n"));
 }
 
+TEST_F(Leaderboard, ASuiteThatIsAFileIsRenewedByIt) {
+  const std::string suite = folder_.write("mine.yaml", suite_).string();
+  folder_.write("mine.yaml", suite_ + good(run("leaderboard pin " + suite)).out);
+  good(run("run --quiet --suite " + suite + " --method few --out " + file("results")));
+  good(run("leaderboard add " + file("results") + " --suite " + suite));
+  write_method(2000);
+  const Answer other = run("leaderboard check " + suite + " --share 1");
+  EXPECT_THAT(other.out, HasSubstr("  glocal run --suite " + suite + " --method few "));
+  EXPECT_THAT(other.out, HasSubstr("/few --suite " + suite + " --force\n"));
+}
+
 TEST_F(Leaderboard, RenewingNeedsForceAndComparesOldAndNew) {
   pin();
   run_and_add();
