@@ -122,13 +122,15 @@ void print_figures(const RunResult& result) {
   print_summary(summary, result.folder);
 }
 
-/// The same experiment again is no reason to stop: a run that was interrupted is gone on with.
-void write_experiment(const std::string& file, const std::string& content, bool replace) {
+/// The same experiment again is no reason to stop: a run that was interrupted is gone on with. What is in
+/// the way of the experiment or the page is told before either is written.
+void write_experiment(const std::string& file, const std::string& content, bool replace,
+                      const ReportOptions& report) {
   std::ostringstream before;
   before << std::ifstream(file).rdbuf();
-  if (before.str() == content) return;
   AtomicFiles files(replace);
-  files.add(file, content);
+  if (before.str() != content) files.add(file, content);
+  AtomicFiles(report.files.replace).check(report.out);
   files.commit();
 }
 
@@ -149,12 +151,13 @@ void localize(const LocalizeOptions& options, Context& context) {
   const LocalizePlan plan = plan_localization(request, context.catalog);
   const std::string out = options.out.empty() ? "results/" + plan.name : options.out;
   const std::string file = out + ".yaml";
-  write_experiment(file, plan.experiment + options.changes.comment(), options.force);
+  // The page of a run that was interrupted is its own, and this one goes on with that.
+  const bool goes_on = is_complete(out) == false;
+  ReportOptions report{.out = out + ".html", .files = {.replace = options.force || goes_on}};
+  write_experiment(file, plan.experiment + options.changes.comment(), options.force, report);
   for (const std::string& choice : plan.choices) answer("{}\n", choice);
   answer("experiment  {}\n", file);
   std::fflush(stdout);
-  // The page of a run that was interrupted is its own, and this one goes on with that.
-  const bool goes_on = is_complete(out) == false;
 
   listen_to_interrupts();
   Narrator narrator;
@@ -165,9 +168,7 @@ void localize(const LocalizeOptions& options, Context& context) {
                                .run();
   print_figures(result);
   context.exit_code = exit_code_of(result);
-  ReportOptions report{.folders = {result.folder.string()},
-                       .out = out + ".html",
-                       .files = {.replace = options.force || goes_on}};
+  report.folders = {result.folder.string()};
   answer("report      {}\n", write_report(report).string());
 }
 

@@ -108,6 +108,14 @@ TEST_F(Localize, AnAnswerThatIsInTheWayStays) {
   good(localize("room/drive.mcap", "--start 2 --force"));
 }
 
+TEST_F(Localize, APageThatIsInTheWayIsToldBeforeAnythingIsMade) {
+  folder_.write("answer.html", "mine");
+  EXPECT_THAT(refusal(localize("room/drive.mcap")), HasSubstr("answer.html: error: the file exists"));
+  EXPECT_FALSE(std::filesystem::exists(file("answer.yaml")));
+  EXPECT_FALSE(std::filesystem::exists(file("answer")));
+  EXPECT_EQ(content(file("answer.html")), "mine");
+}
+
 TEST_F(Localize, AnInterruptedRunIsGoneOnWithAndItsPageRenewed) {
   good(localize("room/drive.mcap"));
   auto summary = nlohmann::ordered_json::parse(content(file("answer/summary.json")));
