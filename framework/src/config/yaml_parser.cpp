@@ -4,6 +4,7 @@
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/parser.h>
 
+#include <algorithm>
 #include <array>
 #include <sstream>
 #include <string_view>
@@ -201,8 +202,20 @@ class TreeBuilder final : public YAML::EventHandler {
   std::optional<YamlNode> root_;
 };
 
+/// Whether a fault may come from a tab that its line begins with, perhaps behind the dash of a list: yaml-cpp
+/// passes over it, and finds that keys and items do not stand where they should.
+bool is_of_tab(const std::string& message, std::string_view source, const YAML::Mark& mark) {
+  static const std::array<std::string_view, 5> rules = {
+      YAML::ErrorMsg::END_OF_MAP, YAML::ErrorMsg::END_OF_SEQ, YAML::ErrorMsg::MAP_KEY,
+      YAML::ErrorMsg::MAP_VALUE, YAML::ErrorMsg::BLOCK_ENTRY};
+  if (mark.is_null() || std::find(rules.begin(), rules.end(), message) == rules.end()) return false;
+  const std::string_view before = source.substr(0, static_cast<std::size_t>(mark.pos));
+  const std::string_view line = before.substr(before.rfind('\n') + 1);
+  return line.substr(0, line.find_first_not_of(" \t-")).find('\t') != std::string_view::npos;
+}
+
 /// yaml-cpp names the rule; this adds what to look for.
-std::string hint(const std::string& message) {
+std::string hint(const std::string& message, std::string_view source, const YAML::Mark& mark) {
   using Hint = std::pair<std::string_view, std::string_view>;
   static const std::array<Hint, 9> hints{{
       {YAML::ErrorMsg::TAB_IN_INDENTATION, "indent with spaces"},
@@ -215,6 +228,7 @@ std::string hint(const std::string& message) {
       {YAML::ErrorMsg::UNKNOWN_TOKEN, "quote text that begins with a special character"},
       {YAML::ErrorMsg::FLOW_END, "brackets do not match"},
   }};
+  if (is_of_tab(message, source, mark)) return " (a tab is no indentation; indent with spaces)";
   for (const auto& [rule, advice] : hints) {
     if (message == rule) return " (" + std::string(advice) + ")";
   }
@@ -234,7 +248,8 @@ std::optional<YamlNode> parse(const std::string& text, const std::shared_ptr<con
   } catch (const Stop&) {
     return std::nullopt;
   } catch (const YAML::Exception& error) {
-    faults.push_back(fault_at(builder.place(error.mark), "not valid YAML: " + error.msg + hint(error.msg)));
+    faults.push_back(fault_at(builder.place(error.mark),
+                              "not valid YAML: " + error.msg + hint(error.msg, source, error.mark)));
     return std::nullopt;
   }
   return builder.take_root();

@@ -289,6 +289,8 @@ TEST_F(ExperimentFile, EachFaultHasItsPlaceAndRule) {
       {"3:1: only one document is allowed, and another begins here (by '---', or by wrong indentation?)"});
   expect_refused("threads: 2", "\tthreads: 2",
                  {"4:1: not valid YAML: illegal tab when looking for indentation (indent with spaces)"});
+  expect_refused("trials: {", "trials:\n\tmax_steps: 3\nx: {",
+                 {"9:11: not valid YAML: illegal map value (a tab is no indentation; indent with spaces)"});
   expect_refused("[[0.0, 0.3]]", "[[0.0, 0.3]",
                  {"6:67: not valid YAML: illegal flow end (brackets do not match)"});
   expect_refused("name: toy", "name: \"toy",
