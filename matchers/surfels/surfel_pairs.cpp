@@ -94,11 +94,17 @@ std::optional<PairRelation> relation_of(const Surfels& surfels, SurfelPair& pair
 
 PairSampler::PairSampler(const Surfels& surfels, const PairRule& rule) : surfels_(&surfels), rule_(rule) {
   constexpr float finely = 8.0F;
+  // From there on single precision would lose what small weights add: counting begins anew.
+  constexpr std::size_t most_counted = std::size_t{1} << 23U;
   float sum = 0.0F;
+  std::size_t counted = 0;
   for (std::size_t i = 0; i < surfels.size(); ++i) {
     sum += finely * surfels.weights[i];
-    while (static_cast<float>(by_weight_.size()) + 0.5F < sum)
+    for (; static_cast<float>(counted) + 0.5F < sum; ++counted)
       by_weight_.push_back(static_cast<std::uint32_t>(i));
+    if (counted < most_counted) continue;
+    sum -= static_cast<float>(counted);
+    counted = 0;
   }
 }
 

@@ -109,6 +109,24 @@ TEST(SurfelPairs, RelationsStayWhenTheCloudIsMovedAndTheMotionIsFound) {
   }
 }
 
+TEST(SurfelPairs, SmallWeightsCountHoweverManySurfelsThereAre) {
+  Surfels surfels;
+  const auto add = [&](const Point& point, const Point& normal, float weight) {
+    surfels.points.push_back(point);
+    surfels.normals.push_back(normal);
+    surfels.weights.push_back(weight);
+  };
+  constexpr int million = 1 << 20;
+  add({0.0F, 0.0F, 0.0F}, {0.0F, 1.0F, 0.0F}, million);
+  for (int i = 0; i < million; ++i) add({2.0F, 0.0F, 0.0F}, {0.0F, 0.0F, 1.0F}, 0.05F);
+  const PairSampler sampler(surfels,
+                            {.shortest = 1.0F, .longest = 8.0F, .length_cell = voxel, .both_sides = false});
+  Rng rng(5);
+  int drawn = 0;
+  for (int i = 0; i < 1000; ++i) drawn += sampler.draw(rng) ? 1 : 0;
+  EXPECT_GT(drawn, 60) << "91 of 1000 draws are of a light surfel and the heavy one";
+}
+
 TEST(PointToPlane, RefinesAPoseThatIsALittleOff) {
   const PreparedCloud target(scan_of(hall(), place), voxel, Point{});
   const Pose3 other({5.4, 4.2, 1.3}, exponential({0.2, -0.1, 0.9}));
