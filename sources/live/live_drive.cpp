@@ -177,24 +177,25 @@ void LiveDrive::take_scan(const bags::RecordedMessage& message) {
 
 std::optional<Sample> LiveDrive::next() {
   if (!first_call_) first_call_ = Clock::now();
-  for (auto next_look = Clock::time_point{};;) {
+  for (auto next_look = Clock::time_point{}; !is_stopped_();) {
     if (Clock::now() >= next_look) {
       ask_for_topics();
       next_look = Clock::now() + between_looks;
     }
     // A robot's messages are all taken before one is answered; those of a recording wait.
     auto message = link_->next(milliseconds(0));
-    for (; message; message = link_->next(milliseconds(0))) {
+    for (; message && !is_stopped_(); message = link_->next(milliseconds(0))) {
       take(*message);
       if (!link_->is_live()) break;
     }
     if (auto sample = newest()) return sample;
     if (message) continue;
-    if (link_->has_ended() || is_stopped_()) return std::nullopt;
+    if (link_->has_ended()) return std::nullopt;
     check_first_wait();
     if (meanwhile_()) continue;
     if ((message = link_->next(between_looks))) take(*message);
   }
+  return std::nullopt;
 }
 
 std::optional<Pose3> LiveDrive::robot_at(std::int64_t stamp_ns, const bags::DriveContents& contents) const {

@@ -281,5 +281,33 @@ TEST_F(Live, StopsWhenItIsToldTo) {
   EXPECT_FALSE(drive.next());
 }
 
+TEST_F(Live, StopsThoughMessagesAlwaysWait) {
+  const LiveTopic begin{"/glocal/begin", "std_msgs/Empty"};
+  int taken = 0;
+  LiveDrive drive(
+      topics_, {.is_stopped = [&] { return taken >= 10; }}, link_,
+      [&](const LiveMessage&) {
+        if (++taken < 1000) link_->put(begin, 0, "");
+      },
+      [] { return false; });
+  link_->subscribe(begin, Delivery::reliable);
+  link_->put(begin, 0, "");
+  EXPECT_FALSE(drive.next());
+  EXPECT_EQ(taken, 10);
+}
+
+TEST_F(Live, StopsThoughThereIsAlwaysAnObservation) {
+  bool is_stopped = false;
+  LiveDrive drive(
+      topics_, {.is_stopped = [&] { return is_stopped; }}, link_, [](const LiveMessage&) {},
+      [] { return false; });
+  for (const std::int64_t stamp : {1 * second, 2 * second}) {
+    odometry(stamp);
+    scan(stamp);
+    EXPECT_EQ(drive.next().has_value(), !is_stopped);
+    is_stopped = true;
+  }
+}
+
 }  // namespace
 }  // namespace glocal::test::live::live_drive_test
