@@ -149,7 +149,9 @@ void LiveDrive::take(const LiveMessage& message) {
     mounts_.push_back(message.bytes);
     if (mounts_.size() > most_mounts) mounts_.pop_front();
   } catch (const ConfigError& error) {
-    warn_once(fmt::format("a message of {} is left out: {}", shown(message.topic.name), error.what()));
+    // What is wrong has numbers in it that are others in each message.
+    warn_once(fmt::format("a message of {} is left out: {}", shown(message.topic.name), error.what()),
+              message.topic.name);
   }
 }
 
@@ -286,8 +288,8 @@ std::string LiveDrive::why_nothing() const {
       bags::seconds(bags::longest_gap_ns), shown(topics_.scans));
 }
 
-void LiveDrive::warn_once(const std::string& text) {
-  if (told_.insert(text).second) warn_(text + "; others like it are not told");
+void LiveDrive::warn_once(const std::string& text, const std::string& kind) {
+  if (told_.insert(kind).second) warn_(text + "; others like it are not told");
 }
 
 }  // namespace glocal::live

@@ -97,7 +97,9 @@ class LiveDrive final : public ObservationSource {
   void check_first_wait() const;
   /// Why no observation has come yet.
   [[nodiscard]] std::string why_nothing() const;
-  void warn_once(const std::string& text);
+  void warn_once(const std::string& text) { warn_once(text, text); }
+  /// Of each kind the first.
+  void warn_once(const std::string& text, const std::string& kind);
 
   LiveTopics topics_;
   bool is_planar_;
@@ -120,7 +122,7 @@ class LiveDrive final : public ObservationSource {
   int segment_ = 0, segment_of_keyframe_ = 0;
   bool has_delivered_ = false;
   std::size_t passed_over_ = 0;
-  std::set<std::string> told_;
+  std::set<std::string> told_;  ///< Kinds of warnings.
 };
 void describe(ParamVisitor& v, LiveDrive::Params& p);
 
