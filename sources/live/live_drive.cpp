@@ -137,6 +137,7 @@ void LiveDrive::begin_anew() {
 }
 
 void LiveDrive::take(const LiveMessage& message) {
+  received_ns_ = message.stamp_ns;
   const auto connection = connections_.find(message.topic.name);
   if (connection == connections_.end()) return take_other_(message);
   const bags::RecordedMessage recorded{
@@ -171,6 +172,7 @@ void LiveDrive::take_scan(const bags::RecordedMessage& message) {
     ++segment_;
   }
   last_stamp_ns_ = header->stamp_ns;
+  scan_received_ns_ = message.stamp_ns;
   contents_.take(message);
   pending_.push_back({*header, bags::read_rays(message, limits_of(topics_)), segment_});
   if (pending_.size() > most_pending) pending_.pop_front();
@@ -216,13 +218,14 @@ std::size_t LiveDrive::decided(const bags::ScanPlacer& placer, const bags::Drive
 }
 
 std::optional<Sample> LiveDrive::newest() {
-  if (pending_.empty() || !is_news_) return std::nullopt;
+  if (!is_news_ || (pending_.empty() && !is_time_to_forget())) return std::nullopt;
   is_news_ = false;
   bags::DriveContents* contents = nullptr;
   try {
     contents = &contents_.settle(true);
   } catch (const ConfigError& error) {
     why_no_frames_ = error.what();
+    forget();
     return std::nullopt;
   }
   const bags::ScanPlacer placer({.heights = topics_.heights, .is_planar = is_planar_}, *contents);
@@ -235,7 +238,7 @@ std::optional<Sample> LiveDrive::newest() {
       newest = std::move(sample);
     }
   }
-  forget(*last_stamp_ns_);
+  forget();
   has_delivered_ = has_delivered_ || newest;
   return newest;
 }
@@ -260,10 +263,19 @@ std::optional<Sample> LiveDrive::observed(const Pending& scan, const bags::ScanP
   return std::nullopt;
 }
 
-void LiveDrive::forget(std::int64_t now_ns) {
-  if (!forgotten_until_ns_) forgotten_until_ns_ = now_ns;
-  if (now_ns - *forgotten_until_ns_ < memory_ns + between_forgetting_ns) return;
-  *forgotten_until_ns_ = now_ns - memory_ns;
+/// As the stamps of scans have it, by what has passed since the last one: odometry may go on without them.
+std::int64_t LiveDrive::now_ns() const {
+  return *last_stamp_ns_ + (received_ns_ - scan_received_ns_);
+}
+
+bool LiveDrive::is_time_to_forget() const {
+  return forgotten_until_ns_ && now_ns() - *forgotten_until_ns_ >= memory_ns + between_forgetting_ns;
+}
+
+void LiveDrive::forget() {
+  if (!forgotten_until_ns_) forgotten_until_ns_ = now_ns();
+  if (!is_time_to_forget()) return;
+  forgotten_until_ns_ = now_ns() - memory_ns;
   contents_.forget_before(*forgotten_until_ns_);
 }
 

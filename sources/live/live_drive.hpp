@@ -92,7 +92,9 @@ class LiveDrive final : public ObservationSource {
                                     const bags::DriveContents& contents) const;
   [[nodiscard]] std::optional<Sample> observed(const Pending& scan, const bags::ScanPlacer& placer,
                                                const bags::DriveContents& contents);
-  void forget(std::int64_t now_ns);
+  [[nodiscard]] std::int64_t now_ns() const;
+  [[nodiscard]] bool is_time_to_forget() const;
+  void forget();
   [[nodiscard]] bool are_scans_chosen() const { return connections_.contains(topics_.scans); }
   void check_first_wait() const;
   /// Why no observation has come yet.
@@ -116,7 +118,8 @@ class LiveDrive final : public ObservationSource {
   std::string why_no_frames_;       ///< What is missing to know where the robot is.
   bool is_news_ = false;            ///< Since newest() was asked last.
   std::deque<Pending> pending_;
-  std::optional<std::int64_t> last_stamp_ns_;
+  std::int64_t received_ns_ = 0, scan_received_ns_ = 0;  ///< The last message, and the last scan.
+  std::optional<std::int64_t> last_stamp_ns_;            ///< Of that scan.
   std::optional<std::int64_t> forgotten_until_ns_;
   std::optional<Pose3> last_keyframe_;  ///< The robot in the odometry's frame.
   int segment_ = 0, segment_of_keyframe_ = 0;

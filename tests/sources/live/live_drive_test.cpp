@@ -168,6 +168,19 @@ TEST_F(Live, ARobotThatStandsStillIsLookedAtOnce) {
   EXPECT_EQ(drive().passed_over(), 0U);
 }
 
+TEST_F(Live, ForgetsWhereTheRobotWasThoughNoScanComes) {
+  for (const std::int64_t stamp : {0 * ms, 200 * ms}) odometry(stamp);
+  scan(100 * ms);
+  EXPECT_TRUE(drive().next());
+  for (int i = 1; i <= 500; ++i) odometry(400 * ms * i);
+  link_->end();
+  EXPECT_FALSE(drive().next());
+  scan(50 * second);
+  EXPECT_FALSE(drive().next()) << "150 s ago";
+  scan(190 * second);
+  EXPECT_TRUE(drive().next());
+}
+
 TEST_F(Live, AClockThatJumpsBackBeginsADriveOfItsOwnOnTheSameRobot) {
   const Pose3 mount = Pose2{0.5, 0.0, 0.0};
   link_->put({"/tf_static", "tf2_msgs/TFMessage"}, 0, transform("base_link", "laser", 0, mount));
