@@ -65,7 +65,9 @@ class LiveLocalizer {
         drive_(
             params().topics, setup(experiment), link_,
             [this](const LiveMessage& message) {
-              is_asked_to_begin_ = is_asked_to_begin_ || message.topic == begin();
+              if (message.topic != begin()) return;
+              begin_anew();
+              drive_.look_anew();
             },
             [this] {
               if (last_step_ && Clock::now() - *last_step_ >= between_states) write_state_once();
@@ -87,7 +89,7 @@ class LiveLocalizer {
   /// Until it is interrupted, or a recording has come to its end. How many observations there were.
   std::size_t run() {
     while (const auto sample = drive_.next()) {
-      if (observations_ > 0 && (is_asked_to_begin_ || sample->segment != segment_)) begin_anew();
+      if (sample->segment != segment_) begin_anew();
       segment_ = sample->segment;
       step(*sample);
       // A robot drives on meanwhile; a recording waits.
@@ -160,8 +162,8 @@ class LiveLocalizer {
 
   /// The robot may have been carried anywhere.
   void begin_anew() {
+    if (!last_) return;
     answer("begins anew\n");
-    is_asked_to_begin_ = false;
     localizer_.reset(++trial_);
     way_ = 0.0;
     last_.reset();
@@ -243,7 +245,7 @@ class LiveLocalizer {
   /// With the search that the last step has left open. Says whether it is still open, and tells what it has
   /// come to.
   bool go_on() {
-    if (!open_ || is_asked_to_begin_) return false;
+    if (!open_) return false;
     StepResult result = localizer_.go_on(looks_of_piece);
     if (result.goes_on()) return true;
     tell(*open_, std::move(result), {});
@@ -278,11 +280,11 @@ class LiveLocalizer {
   live::Answers answers_;
   std::string steps_file_;
   std::ofstream steps_;
-  bool is_asked_to_begin_ = false, was_declared_ = false;
+  bool was_declared_ = false;
   int segment_ = 0;
   std::size_t trial_ = 0, observations_ = 0, declarations_ = 0;
-  double way_ = 0.0;  ///< m, as odometry has it.
-  std::optional<Pose3> last_;
+  double way_ = 0.0;            ///< m, as odometry has it.
+  std::optional<Pose3> last_;   ///< The robot in the odometry's frame; none before the first observation.
   std::optional<Sample> open_;  ///< The last one, while a search of its step goes on.
   std::optional<VerdictKind> last_verdict_;
   std::string state_file_, fingerprint_;  ///< Empty where nothing is kept.

@@ -123,6 +123,11 @@ void LiveDrive::choose_scans(const std::vector<LiveTopic>& there) {
   subscribe(*named, Delivery::newest);
 }
 
+void LiveDrive::look_anew() {
+  pending_.clear();
+  last_keyframe_.reset();
+}
+
 /// Nothing of what was is known any more, but where sensors are on the robot.
 void LiveDrive::begin_anew() {
   contents_ = bags::ContentsReader(wanted(topics_), robot);

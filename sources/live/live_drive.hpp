@@ -64,6 +64,9 @@ class LiveDrive final : public ObservationSource {
   /// first call, with what there is.
   [[nodiscard]] std::optional<Sample> next() override;
 
+  /// The next scan that comes is an observation, though the robot has not moved on. May be called in next().
+  void look_anew();
+
   /// How many observations were not delivered, since a newer one was there.
   [[nodiscard]] std::size_t passed_over() const { return passed_over_; }
 

@@ -24,17 +24,20 @@ class Live : public CommandLine {
   Live() {
     simulate_room();
     bags::RobotRecording recording;
-    for (const carmen::CarmenScan& scan : carmen::read_carmen_log(file("room/drive.log"))) {
-      const auto stamp = static_cast<std::int64_t>(scan.stamp * 1e9);
-      recording.transform("odom", "base_link", stamp, scan.odom_from_robot);
-      recording.transform("base_link", "laser", stamp, {}, "/tf_static");
-      recording.scan("/scan", stamp,
-                     {.angle_min = static_cast<float>(scan.start_angle),
-                      .angle_increment = static_cast<float>(scan.angle_step),
-                      .range_max = static_cast<float>(scan.max_range),
-                      .ranges = scan.ranges});
-    }
+    for (const carmen::CarmenScan& scan : carmen::read_carmen_log(file("room/drive.log")))
+      add(recording, scan, static_cast<std::int64_t>(scan.stamp * 1e9));
     folder_.write("drive.mcap", recording.bytes());
+  }
+
+  /// What a robot sends where this scan was made.
+  static void add(bags::RobotRecording& recording, const carmen::CarmenScan& scan, std::int64_t stamp_ns) {
+    recording.transform("odom", "base_link", stamp_ns, scan.odom_from_robot);
+    recording.transform("base_link", "laser", stamp_ns, {}, "/tf_static");
+    recording.scan("/scan", stamp_ns,
+                   {.angle_min = static_cast<float>(scan.start_angle),
+                    .angle_increment = static_cast<float>(scan.angle_step),
+                    .range_max = static_cast<float>(scan.max_range),
+                    .ranges = scan.ranges});
   }
 
   [[nodiscard]] Answer live(const std::string& recording, const std::string& options) const {
@@ -140,6 +143,28 @@ TEST_F(Live, ItsOwnRecordingGivesTheSameAnswers) {
     EXPECT_THAT(info.out, HasSubstr(topic));
   EXPECT_THAT(refusal(live("drive.mcap", "--out " + file("live") + " --record " + file("again.mcap"))),
               HasSubstr("again.mcap: error: is there already"));
+}
+
+TEST_F(Live, BeginsAnewThoughTheRobotStands) {
+  const carmen::CarmenScan scan = carmen::read_carmen_log(file("room/drive.log")).front();
+  bags::RobotRecording recording;
+  constexpr std::int64_t ms = 1'000'000;
+  const auto ask = [&](std::int64_t stamp_ns) {
+    recording.add("/glocal/begin", "std_msgs/msg/Empty", stamp_ns, bags::RobotRecording::cdr());
+  };
+  ask(0);
+  for (const std::int64_t stamp : {100 * ms, 200 * ms}) add(recording, scan, stamp);
+  ask(250 * ms);
+  ask(251 * ms);
+  for (const std::int64_t stamp : {300 * ms, 400 * ms}) add(recording, scan, stamp);
+  folder_.write("stands.mcap", recording.bytes());
+  const Answer answer = good(live("stands.mcap", "--out " + file("live")));
+  EXPECT_THAT(answer.out, HasSubstr("begins anew"));
+  const std::vector<Json> steps = json_lines(file("live.steps.jsonl"));
+  ASSERT_EQ(steps.size(), 2U);
+  EXPECT_EQ(steps[0]["trial"], 0);
+  EXPECT_EQ(steps[1]["trial"], 1);
+  EXPECT_EQ(steps[1]["step"], 0);
 }
 
 TEST_F(Live, KnowsAfterAPowerCycleWhereItWas) {

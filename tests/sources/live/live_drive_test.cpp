@@ -168,6 +168,19 @@ TEST_F(Live, ARobotThatStandsStillIsLookedAtOnce) {
   EXPECT_EQ(drive().passed_over(), 0U);
 }
 
+TEST_F(Live, LooksAnewAtARobotThatStandsStill) {
+  for (int i = 0; i < 10; ++i)
+    link_->put(tf_, 100 * ms * i, transform("odom", "base_link", 100 * ms * i, Pose2{1.0, 2.0, 0.0}));
+  scan(50 * ms);
+  EXPECT_TRUE(drive().next());
+  drive().look_anew();
+  scan(150 * ms);
+  EXPECT_TRUE(drive().next());
+  scan(250 * ms);
+  link_->end();
+  EXPECT_FALSE(drive().next());
+}
+
 TEST_F(Live, ForgetsWhereTheRobotWasThoughNoScanComes) {
   for (const std::int64_t stamp : {0 * ms, 200 * ms}) odometry(stamp);
   scan(100 * ms);
