@@ -169,6 +169,9 @@ class LiveLocalizer {
     last_.reset();
     open_.reset();
     state_.reset();
+    was_declared_ = false;
+    last_verdict_.reset();
+    answers_.begin_anew();
   }
 
   /// Where the robot was when it was switched off, if that is known.

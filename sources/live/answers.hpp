@@ -34,6 +34,8 @@ class Answers {
   /// A step made of the observation at this stamp, and how many observations were passed over so far.
   void tell(const StepResult& result, std::int64_t stamp_ns, const Pose3& odom_from_robot,
             std::size_t passed_over);
+  /// What was declared counts no longer: the next declaration is one of its own.
+  void begin_anew() { is_declared_ = false; }
 
  private:
   void publish(const std::string& topic, const std::string& type, const std::string& bytes);

@@ -89,6 +89,9 @@ TEST_F(Published, APoseOnceItIsDeclaredAndTheBestOneAlways) {
   tell(searching, answers);
   tell(declared(), answers);
   EXPECT_THAT(topics(), Contains("/robot/initialpose")) << "declared anew";
+  answers.begin_anew();
+  tell(declared(), answers);
+  EXPECT_THAT(topics(), Contains("/robot/initialpose")) << "another drive";
 }
 
 TEST_F(Published, PoseAndCovarianceAreThoseOfTheMessage) {
