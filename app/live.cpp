@@ -70,6 +70,7 @@ class LiveLocalizer {
               drive_.look_anew();
             },
             [this] {
+              if (const auto odometry_ns = drive_.odometry_ns()) answers_.tell_again(*odometry_ns);
               if (last_step_ && Clock::now() - *last_step_ >= between_states) write_state_once();
               return go_on();
             }),

@@ -16,6 +16,10 @@ namespace {
 using bags::CdrWriter;
 using bags::Header;
 
+/// From one transform to the next one while the robot stands; odometry of several senders need not agree.
+constexpr std::int64_t between_tf_ns = 100'000'000;
+constexpr std::int64_t longest_way_back_ns = 1'000'000'000;
+
 /// In a frame where all headings are larger by an angle, rad.
 PoseCovariance turned(const PoseCovariance& a, double angle) {
   const double c = std::cos(angle);
@@ -112,11 +116,25 @@ void Answers::tell(const StepResult& result, std::int64_t stamp_ns, const Pose3&
   publish("/glocal/candidates", "geometry_msgs/PoseArray", poses_message(common, result.verdict.candidates));
   publish("/diagnostics", "diagnostic_msgs/DiagnosticArray",
           diagnostics_message(result, map_, common, passed_over));
+  map_to_odom_.reset();
   if (!frames_.publishes_tf || !is_declared) return;
   const MapPlace place = map_.place_of(*result.verdict.map_from_robot);
-  const Pose3 map_from_odom = place.map_from_robot * inverse(odom_from_robot);
-  publish("/tf", "tf2_msgs/TFMessage",
-          bags::serialized(std::vector{bags::FrameTransform{header(place), frames_.odom, map_from_odom}}));
+  map_to_odom_ = {header(place), frames_.odom, place.map_from_robot * inverse(odom_from_robot)};
+  // tf listens to the newest stamp, and takes each one once.
+  const bool is_behind = stamp_ns <= tf_ns_ && tf_ns_ - stamp_ns < longest_way_back_ns;
+  publish_tf(is_behind ? tf_ns_ + 1 : stamp_ns);
+}
+
+void Answers::tell_again(std::int64_t odometry_ns) {
+  const std::int64_t since = odometry_ns - tf_ns_;
+  // After a stamp in the future it goes on.
+  const bool is_due = since >= between_tf_ns || since <= -longest_way_back_ns;
+  if (map_to_odom_ && is_due) publish_tf(odometry_ns);
+}
+
+void Answers::publish_tf(std::int64_t stamp_ns) {
+  map_to_odom_->header.stamp_ns = tf_ns_ = stamp_ns;
+  publish("/tf", "tf2_msgs/TFMessage", bags::serialized(std::vector{*map_to_odom_}));
 }
 
 void Answers::publish(const std::string& topic, const std::string& type, const std::string& bytes) {

@@ -24,6 +24,8 @@ constexpr std::int64_t jump_back_ns = ns_per_s;
 /// So long where the robot was is remembered, and how often what is older is forgotten.
 constexpr std::int64_t memory_ns = 60 * ns_per_s;
 constexpr std::int64_t between_forgetting_ns = 10 * ns_per_s;
+/// Longer without a scan nobody sees where the robot is.
+constexpr std::int64_t longest_silence_ns = 2 * ns_per_s;
 /// More scans do not wait for odometry, and more messages of tf_static are not kept.
 constexpr std::size_t most_mounts = 100;
 constexpr std::size_t most_pending = 200;
@@ -151,13 +153,24 @@ void LiveDrive::take(const LiveMessage& message) {
     if (bags::has_scans(connection->second.type)) return take_scan(recorded);
     contents_.take(recorded);
     is_news_ = true;
-    if (!message.topic.name.ends_with("/tf_static")) return;
+    if (!message.topic.name.ends_with("/tf_static")) return note_odometry(recorded);
     mounts_.push_back(message.bytes);
     if (mounts_.size() > most_mounts) mounts_.pop_front();
   } catch (const ConfigError& error) {
     // What is wrong has numbers in it that are others in each message.
     warn_once(fmt::format("a message of {} is left out: {}", shown(message.topic.name), error.what()),
               message.topic.name);
+  }
+}
+
+void LiveDrive::note_odometry(const bags::RecordedMessage& message) {
+  if (bags::has_odometry(message.connection->type)) {
+    if (const auto header = bags::readable_header(message)) odometry_ns_ = header->stamp_ns;
+    return;
+  }
+  const std::string odom_frame = topics_.odom_frame.empty() ? "odom" : topics_.odom_frame;
+  for (const bags::FrameTransform& transform : bags::read_transforms(message)) {
+    if (transform.header.frame == odom_frame) odometry_ns_ = transform.header.stamp_ns;
   }
 }
 
@@ -205,6 +218,12 @@ std::optional<Sample> LiveDrive::next() {
     if ((message = link_->next(between_looks))) take(*message);
   }
   return std::nullopt;
+}
+
+std::optional<std::int64_t> LiveDrive::odometry_ns() const {
+  const bool is_watched =
+      odometry_ns_ && last_stamp_ns_ && *odometry_ns_ - *last_stamp_ns_ < longest_silence_ns;
+  return is_watched ? odometry_ns_ : std::nullopt;
 }
 
 std::optional<Pose3> LiveDrive::robot_at(std::int64_t stamp_ns, const bags::DriveContents& contents) const {

@@ -67,6 +67,10 @@ class LiveDrive final : public ObservationSource {
   /// The next scan that comes is an observation, though the robot has not moved on. May be called in next().
   void look_anew();
 
+  /// The stamp of the last message of odometry, by a topic or as tf from the frame that it counts from; none
+  /// where no scans come.
+  [[nodiscard]] std::optional<std::int64_t> odometry_ns() const;
+
   /// How many observations were not delivered, since a newer one was there.
   [[nodiscard]] std::size_t passed_over() const { return passed_over_; }
 
@@ -84,6 +88,7 @@ class LiveDrive final : public ObservationSource {
   void choose_scans(const std::vector<LiveTopic>& there);
   void subscribe(const LiveTopic& topic, Delivery delivery);
   void take(const LiveMessage& message);
+  void note_odometry(const bags::RecordedMessage& message);
   void take_scan(const bags::RecordedMessage& message);
   void begin_anew();
   /// The newest observation that can be made, and none of those before it.
@@ -123,6 +128,7 @@ class LiveDrive final : public ObservationSource {
   std::deque<Pending> pending_;
   std::int64_t received_ns_ = 0, scan_received_ns_ = 0;  ///< The last message, and the last scan.
   std::optional<std::int64_t> last_stamp_ns_;            ///< Of that scan.
+  std::optional<std::int64_t> odometry_ns_;              ///< Of the last message of odometry.
   std::optional<std::int64_t> forgotten_until_ns_;
   std::optional<Pose3> last_keyframe_;  ///< The robot in the odometry's frame.
   int segment_ = 0, segment_of_keyframe_ = 0;

@@ -6,10 +6,12 @@
 #undef _res
 
 #include <filesystem>
+#include <set>
 
 #include "app/result_lines.hpp"
 #include "app/room.hpp"
 #include "sources/bags/message_writer.hpp"
+#include "sources/bags/messages.hpp"
 #include "sources/carmen/carmen_parser.hpp"
 
 namespace glocal::test::live_test {
@@ -165,6 +167,26 @@ TEST_F(Live, BeginsAnewThoughTheRobotStands) {
   EXPECT_EQ(steps[0]["trial"], 0);
   EXPECT_EQ(steps[1]["trial"], 1);
   EXPECT_EQ(steps[1]["step"], 0);
+}
+
+TEST_F(Live, MapToOdomGoesOnWhereTheRobotStands) {
+  const auto scans = carmen::read_carmen_log(file("room/drive.log"));
+  constexpr std::int64_t ms = 1'000'000, arrival = 1000 * ms;
+  bags::RobotRecording recording;
+  for (const int i : {0, 1, 2}) add(recording, scans.at(static_cast<std::size_t>(i)), i * 500 * ms);
+  for (int i = 1; i <= 10; ++i) add(recording, scans.at(2), arrival + i * 100 * ms);
+  folder_.write("stands.mcap", recording.bytes());
+  good(live("stands.mcap", "--real-time --tf --out " + file("live") + " --record " + file("told.mcap")));
+  EXPECT_EQ(json_lines(file("live.steps.jsonl")).back()["verdict"], "localized");
+  glocal::bags::Recording told(file("told.mcap"));
+  told.rewind(std::set<std::string>{"/tf"});
+  std::int64_t last = 0;
+  while (const auto message = told.next()) {
+    for (const glocal::bags::FrameTransform& transform : glocal::bags::read_transforms(*message)) {
+      if (transform.header.frame == "map") last = transform.header.stamp_ns;
+    }
+  }
+  EXPECT_GT(last, arrival) << "no step is that late";
 }
 
 TEST_F(Live, KnowsAfterAPowerCycleWhereItWas) {

@@ -18,6 +18,7 @@ using glocal::bags::RecordedMessage;
 using glocal::live::Answers;
 using testing::Contains;
 using testing::ElementsAre;
+using testing::IsEmpty;
 using testing::Not;
 using testing::Pair;
 
@@ -193,6 +194,43 @@ TEST_F(Published, MapToOdomIfAskedFor) {
   lost.verdict.kind = VerdictKind::searching;
   tell(lost, answers);
   EXPECT_THAT(topics(), Not(Contains("/tf")));
+}
+
+TEST_F(Published, MapToOdomGoesOnWithOdometry) {
+  Answers answers(link_, map_, "", {.publishes_tf = true});
+  const auto topics_at = [&](int ms) {
+    link_.published.clear();
+    answers.tell_again(stamp + std::int64_t{ms} * 1'000'000);
+    return topics();
+  };
+  EXPECT_THAT(topics_at(200), IsEmpty()) << "nothing is declared";
+  tell(declared(), answers);
+  EXPECT_THAT(topics_at(50), IsEmpty());
+  EXPECT_THAT(topics_at(100), ElementsAre("/tf"));
+  const auto expect_sent_at = [&](std::int64_t stamp_ns) {
+    read("/tf", [&](const RecordedMessage& message) {
+      const auto transforms = glocal::bags::read_transforms(message);
+      ASSERT_EQ(transforms.size(), 1U);
+      EXPECT_EQ(transforms[0].header.stamp_ns, stamp_ns);
+      EXPECT_EQ(transforms[0].header.frame, "map");
+      EXPECT_EQ(transforms[0].child_frame, "odom");
+      EXPECT_NEAR(transforms[0].parent_from_child.x, 4.0 - std::cos(0.5), 1e-12);
+    });
+  };
+  expect_sent_at(stamp + 100'000'000);
+  // Of a scan that was made before.
+  tell(declared(), answers);
+  expect_sent_at(stamp + 100'000'001);
+  EXPECT_THAT(topics_at(150), IsEmpty());
+  EXPECT_THAT(topics_at(60'000), ElementsAre("/tf"));
+  EXPECT_THAT(topics_at(250), ElementsAre("/tf")) << "a minute in the future was a mistake";
+  answers.begin_anew();
+  EXPECT_THAT(topics_at(500), IsEmpty());
+  tell(declared(), answers);
+  StepResult lost = declared();
+  lost.verdict.kind = VerdictKind::searching;
+  tell(lost, answers);
+  EXPECT_THAT(topics_at(500), IsEmpty());
 }
 
 }  // namespace

@@ -181,6 +181,23 @@ TEST_F(Live, LooksAnewAtARobotThatStandsStill) {
   EXPECT_FALSE(drive().next());
 }
 
+TEST_F(Live, TellsHowFarOdometryHasCome) {
+  EXPECT_FALSE(drive().odometry_ns());
+  odometry(0);
+  scan(50 * ms);
+  odometry(100 * ms);
+  link_->put(tf_, 300 * ms, transform("base_link", "arm", 300 * ms, {}));
+  EXPECT_TRUE(drive().next());
+  EXPECT_EQ(drive().odometry_ns(), 100 * ms);
+  link_->end();
+  odometry(200 * ms);
+  EXPECT_FALSE(drive().next());
+  EXPECT_EQ(drive().odometry_ns(), 200 * ms);
+  odometry(5 * second);
+  EXPECT_FALSE(drive().next());
+  EXPECT_FALSE(drive().odometry_ns()) << "no scan comes any more";
+}
+
 TEST_F(Live, ForgetsWhereTheRobotWasThoughNoScanComes) {
   for (const std::int64_t stamp : {0 * ms, 200 * ms}) odometry(stamp);
   scan(100 * ms);
