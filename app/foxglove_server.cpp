@@ -201,8 +201,8 @@ class FoxgloveServer::Server {
 
   void offer(const LiveTopic& topic, std::shared_ptr<const FoxgloveMessage> message, bool is_kept) {
     const std::size_t size = sizeof(FoxgloveMessage) + message->bytes.size();
-    // Where the thread gets no processor, messages are lost, not memory.
-    if (waiting_bytes_ > shared_.limits.queue_bytes) return;
+    // Where the thread gets no processor, messages are lost, not memory. What is kept is sent only once.
+    if (!is_kept && waiting_bytes_ > shared_.limits.queue_bytes) return;
     waiting_bytes_ += size;
     asio::post(io_, [this, topic, message = std::move(message), is_kept, size] {
       waiting_bytes_ -= size;

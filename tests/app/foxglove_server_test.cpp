@@ -110,6 +110,21 @@ TEST(FoxgloveServer, SendsWhatIsKeptToThoseWhoComeLate) {
   EXPECT_THAT(viewer.next(), testing::Optional(HasSubstr("needs an id of its own")));
 }
 
+TEST(FoxgloveServer, LosesNothingThatIsKept) {
+  FoxgloveServer server("127.0.0.1", 0);
+  // More than may wait for its thread, and so soon after one another that it has hardly begun.
+  constexpr int mounts = 100;
+  server.offer(map, 1, std::string(20 * megabyte, ' '), true);
+  for (int i = 1; i <= mounts; ++i)
+    server.offer({fmt::format("/robot_{}/tf_static", i), "tf2_msgs/TFMessage"}, 1, "mounts", true);
+  std::this_thread::sleep_for(milliseconds(100));
+  server.offer(scan, 2, "the last one", true);
+  Viewer viewer(server);
+  viewer.next_with(scan.name);
+  viewer.subscribe(mounts);
+  EXPECT_EQ(viewer.next(), "mounts");
+}
+
 TEST(FoxgloveServer, TellsOfTopicsAsTheyAreFirstSeen) {
   FoxgloveServer server("127.0.0.1", 0);
   Viewer viewer(server);
