@@ -71,7 +71,8 @@ class LiveDrive final : public ObservationSource {
   /// where no scans come.
   [[nodiscard]] std::optional<std::int64_t> odometry_ns() const;
 
-  /// How many observations were not delivered, since a newer one was there.
+  /// How many observations were not delivered, since a newer one was there: of the scans that the link had,
+  /// which may keep the newest ones only.
   [[nodiscard]] std::size_t passed_over() const { return passed_over_; }
 
  private:
