@@ -181,7 +181,7 @@ std::optional<LiveMessage> Ros2Link::next(std::chrono::milliseconds longest) {
   }
 }
 
-void Ros2Link::publish(const LiveTopic& topic, Delivery delivery, std::string_view bytes) {
+dds_entity_t Ros2Link::writer_of(const LiveTopic& topic, Delivery delivery) {
   const dds_entity_t handle = topic_of(topic);
   dds_entity_t& writer = writers_[topic.name];
   if (writer == 0) {
@@ -191,6 +191,15 @@ void Ros2Link::publish(const LiveTopic& topic, Delivery delivery, std::string_vi
     const Qos qos = qos_of(delivery, depths[static_cast<std::size_t>(delivery)]);
     writer = made(dds_create_writer(participant_.handle(), handle, qos.get(), listener.get()), "a writer");
   }
+  return writer;
+}
+
+void Ros2Link::advertise(const LiveTopic& topic, Delivery delivery) {
+  static_cast<void>(writer_of(topic, delivery));
+}
+
+void Ros2Link::publish(const LiveTopic& topic, Delivery delivery, std::string_view bytes) {
+  const dds_entity_t writer = writer_of(topic, delivery);
   constexpr std::size_t header = 4;
   const dds_return_t sent =
       bytes.size() < header ? DDS_RETCODE_BAD_PARAMETER : dds_writecdr(writer, outgoing(bytes));

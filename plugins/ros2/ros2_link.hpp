@@ -49,15 +49,18 @@ class Ros2Link final : public MessageLink {
   void subscribe(const LiveTopic& topic, Delivery delivery) override;
   /// Tells the user, once each, of senders and receivers that cannot be matched, too.
   [[nodiscard]] std::optional<LiveMessage> next(std::chrono::milliseconds longest) override;
-  /// Does not wait for receivers: those that have not found the topic yet, some 0.1 s after its first
-  /// message, miss what is not kept. Waits for at most 0.1 s where receivers do not keep up. Throws RunError
-  /// for bytes that are no message of this type, ConfigError as subscribe().
+  /// Throws ConfigError as subscribe().
+  void advertise(const LiveTopic& topic, Delivery delivery) override;
+  /// Does not wait for receivers: those that have not found the topic yet, some 0.1 s after it was
+  /// advertised or its first message, miss what is not kept. Waits for at most 0.1 s where receivers do not
+  /// keep up. Throws RunError for bytes that are no message of this type, ConfigError as subscribe().
   void publish(const LiveTopic& topic, Delivery delivery, std::string_view bytes) override;
   /// It takes up to some seconds until all are known.
   [[nodiscard]] std::vector<LiveTopic> topics() override;
 
  private:
   dds_entity_t topic_of(const LiveTopic& topic);
+  dds_entity_t writer_of(const LiveTopic& topic, Delivery delivery);
   void tell(const Mailbox::News& news);
   void tell_once(const std::string& sentence);
   void update_senders();

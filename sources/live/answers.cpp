@@ -16,6 +16,12 @@ namespace {
 using bags::CdrWriter;
 using bags::Header;
 
+const LiveTopic initial_pose{"/initialpose", "geometry_msgs/PoseWithCovarianceStamped"};
+const LiveTopic best_pose{"/glocal/pose", "geometry_msgs/PoseWithCovarianceStamped"};
+const LiveTopic candidates{"/glocal/candidates", "geometry_msgs/PoseArray"};
+const LiveTopic diagnostics{"/diagnostics", "diagnostic_msgs/DiagnosticArray"};
+const LiveTopic tf{"/tf", "tf2_msgs/TFMessage"};
+
 /// From one transform to the next one while the robot stands; odometry of several senders need not agree.
 constexpr std::int64_t between_tf_ns = 100'000'000;
 constexpr std::int64_t longest_way_back_ns = 1'000'000'000;
@@ -95,27 +101,33 @@ std::string diagnostics_message(const StepResult& result, const GlobalMap& map, 
 
 }  // namespace
 
+Answers::Answers(MessageLink& link, const GlobalMap& map, std::string name_space, Frames frames)
+    : link_(link), map_(map), name_space_(std::move(name_space)), frames_(std::move(frames)) {
+  std::vector<LiveTopic> topics = {initial_pose, best_pose, candidates, diagnostics};
+  if (frames_.publishes_tf) topics.push_back(tf);
+  for (const LiveTopic& topic : topics)
+    link_.advertise({name_space_ + topic.name, topic.type}, Delivery::reliable);
+}
+
 void Answers::tell(const StepResult& result, std::int64_t stamp_ns, const Pose3& odom_from_robot,
                    std::size_t passed_over) {
   const auto header = [&](const MapPlace& place) {
     return Header{stamp_ns, place.map.empty() ? frames_.map : place.map};
   };
-  const auto publish_pose = [&](const std::string& topic, const Pose3& pose) {
+  const auto publish_pose = [&](const LiveTopic& topic, const Pose3& pose) {
     const MapPlace place = map_.place_of(pose);
     std::optional<PoseCovariance> covariance;
     if (const auto& estimate = result.verdict.estimate; estimate && estimate->covariance)
       covariance = turned(*estimate->covariance, place.map_from_robot.heading() - pose.heading());
-    publish(topic, "geometry_msgs/PoseWithCovarianceStamped",
-            pose_message(header(place), place.map_from_robot, covariance));
+    publish(topic, pose_message(header(place), place.map_from_robot, covariance));
   };
   const Header common{stamp_ns, frames_.map};
   const bool is_declared = result.verdict.kind == VerdictKind::localized;
-  if (const auto best = result.estimate()) publish_pose("/glocal/pose", *best);
-  if (is_declared && !is_declared_) publish_pose("/initialpose", *result.verdict.map_from_robot);
+  if (const auto best = result.estimate()) publish_pose(best_pose, *best);
+  if (is_declared && !is_declared_) publish_pose(initial_pose, *result.verdict.map_from_robot);
   is_declared_ = is_declared;
-  publish("/glocal/candidates", "geometry_msgs/PoseArray", poses_message(common, result.verdict.candidates));
-  publish("/diagnostics", "diagnostic_msgs/DiagnosticArray",
-          diagnostics_message(result, map_, common, passed_over));
+  publish(candidates, poses_message(common, result.verdict.candidates));
+  publish(diagnostics, diagnostics_message(result, map_, common, passed_over));
   map_to_odom_.reset();
   if (!frames_.publishes_tf || !is_declared) return;
   const MapPlace place = map_.place_of(*result.verdict.map_from_robot);
@@ -134,11 +146,11 @@ void Answers::tell_again(std::int64_t odometry_ns) {
 
 void Answers::publish_tf(std::int64_t stamp_ns) {
   map_to_odom_->header.stamp_ns = tf_ns_ = stamp_ns;
-  publish("/tf", "tf2_msgs/TFMessage", bags::serialized(std::vector{*map_to_odom_}));
+  publish(tf, bags::serialized(std::vector{*map_to_odom_}));
 }
 
-void Answers::publish(const std::string& topic, const std::string& type, const std::string& bytes) {
-  link_.publish({name_space_ + topic, type}, Delivery::reliable, bytes);
+void Answers::publish(const LiveTopic& topic, const std::string& bytes) {
+  link_.publish({name_space_ + topic.name, topic.type}, Delivery::reliable, bytes);
 }
 
 }  // namespace glocal::live

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "glocal/global_map.hpp"
 #include "glocal/message_link.hpp"
@@ -30,9 +29,8 @@ class Answers {
     bool publishes_tf = false;  ///< Somebody else may own map to odom (REP 105).
   };
 
-  /// `link` and `map` must outlive this.
-  Answers(MessageLink& link, const GlobalMap& map, std::string name_space, Frames frames)
-      : link_(link), map_(map), name_space_(std::move(name_space)), frames_(std::move(frames)) {}
+  /// `link` and `map` must outlive this. What is sent once is not to be missed: topics are advertised here.
+  Answers(MessageLink& link, const GlobalMap& map, std::string name_space, Frames frames);
 
   /// A step made of the observation at this stamp, and how many observations were passed over so far.
   void tell(const StepResult& result, std::int64_t stamp_ns, const Pose3& odom_from_robot,
@@ -46,7 +44,7 @@ class Answers {
   }
 
  private:
-  void publish(const std::string& topic, const std::string& type, const std::string& bytes);
+  void publish(const LiveTopic& topic, const std::string& bytes);
   void publish_tf(std::int64_t stamp_ns);
 
   MessageLink& link_;

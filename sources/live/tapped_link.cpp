@@ -17,6 +17,10 @@ std::optional<LiveMessage> TappedLink::next(std::chrono::milliseconds longest) {
   return message;
 }
 
+void TappedLink::advertise(const LiveTopic& topic, Delivery delivery) {
+  if (!kept_back_.contains(topic.name)) link_->advertise(topic, delivery);
+}
+
 void TappedLink::publish(const LiveTopic& topic, Delivery delivery, std::string_view bytes) {
   if (!kept_back_.contains(topic.name)) link_->publish(topic, delivery, bytes);
   tap_(topic, last_ns_, bytes);

@@ -29,6 +29,7 @@ class TappedLink final : public MessageLink {
   [[nodiscard]] std::optional<LiveMessage> next(std::chrono::milliseconds longest) override;
   [[nodiscard]] bool is_live() const override { return link_->is_live(); }
   [[nodiscard]] bool has_ended() const override { return link_->has_ended(); }
+  void advertise(const LiveTopic& topic, Delivery delivery) override;
   void publish(const LiveTopic& topic, Delivery delivery, std::string_view bytes) override;
   [[nodiscard]] std::vector<LiveTopic> topics() override { return link_->topics(); }
 

@@ -214,6 +214,15 @@ TEST_F(Ros2, TheRobotHearsWhatIsPublished) {
   EXPECT_EQ(late->receive(long_enough).value_or("").substr(0, text.size()), text);
 }
 
+TEST_F(Ros2, WhatIsAdvertisedIsFoundBeforeItsFirstMessage) {
+  const auto one = this->link(), other = this->link();
+  one->advertise(odom, Delivery::reliable);
+  const auto until = std::chrono::steady_clock::now() + long_enough;
+  while (other->topics().empty() && std::chrono::steady_clock::now() < until)
+    std::this_thread::sleep_for(milliseconds(10));
+  EXPECT_THAT(other->topics(), ElementsAre(odom));
+}
+
 TEST_F(Ros2, APublisherThatBeginsAnewIsHeardAgain) {
   const auto link = this->link();
   link->subscribe(scan, Delivery::newest);

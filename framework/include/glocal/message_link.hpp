@@ -47,6 +47,9 @@ class MessageLink {
   [[nodiscard]] virtual bool is_live() const { return true; }
   /// Whether nothing will come any more; a robot is never at its end.
   [[nodiscard]] virtual bool has_ended() const { return false; }
+  /// Messages of this topic will be sent: who is to receive them can find it before the first one, which may
+  /// be missed otherwise. Throws ConfigError for a type that the link does not know.
+  virtual void advertise(const LiveTopic& /*topic*/, Delivery /*delivery*/) {}
   /// Sends a message. Throws ConfigError for a type that the link does not know.
   virtual void publish(const LiveTopic& topic, Delivery delivery, std::string_view bytes) = 0;
   /// What others send, as far as the link has heard of it, in the order of the names.

@@ -95,6 +95,15 @@ TEST_F(Published, APoseOnceItIsDeclaredAndTheBestOneAlways) {
   EXPECT_THAT(topics(), Contains("/robot/initialpose")) << "another drive";
 }
 
+TEST_F(Published, TopicsThatAreAdvertisedBefore) {
+  const Answers answers(link_, map_, "/robot", {});
+  EXPECT_THAT(link_.advertised, ElementsAre("/robot/initialpose", "/robot/glocal/pose",
+                                            "/robot/glocal/candidates", "/robot/diagnostics"));
+  const Answers with_tf(link_, map_, "", {.publishes_tf = true});
+  EXPECT_THAT(link_.advertised, Contains("/tf"));
+  EXPECT_THAT(link_.published, IsEmpty());
+}
+
 TEST_F(Published, PoseAndCovarianceAreThoseOfTheMessage) {
   Answers answers(link_, map_, "", {.map = "plan"});
   tell(declared(), answers);

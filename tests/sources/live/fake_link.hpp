@@ -33,12 +33,14 @@ class FakeLink final : public MessageLink {
     return message;
   }
   bool has_ended() const override { return ends_; }
+  void advertise(const LiveTopic& topic, Delivery /*delivery*/) override { advertised.push_back(topic.name); }
   void publish(const LiveTopic& topic, Delivery delivery, std::string_view bytes) override {
     published.push_back({topic, 0, std::string(bytes)});
     deliveries.push_back(delivery);
   }
   std::vector<LiveTopic> topics() override { return there_; }
 
+  std::vector<std::string> advertised;
   std::vector<LiveMessage> published;
   std::vector<Delivery> deliveries;
 

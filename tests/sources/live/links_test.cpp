@@ -150,6 +150,8 @@ TEST_F(Links, WhatIsKeptBackReachesTheTapAlone) {
                   {"/tf"});
   link.subscribe(scan, Delivery::newest);
   all_of(link);
+  for (const LiveTopic& topic : {tf, scan}) link.advertise(topic, Delivery::reliable);
+  EXPECT_THAT(robot->advertised, ElementsAre(scan.name));
   link.publish(tf, Delivery::reliable, "map to odom");
   link.publish(scan, Delivery::newest, "told");
   EXPECT_THAT(tapped, ElementsAre("/scan 5 a scan", "/tf 5 map to odom", "/scan 5 told"));
