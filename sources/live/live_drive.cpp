@@ -7,6 +7,7 @@
 
 #include "glocal/error.hpp"
 #include "glocal/words.hpp"
+#include "sources/bags/cdr_writer.hpp"
 
 namespace glocal::live {
 namespace {
@@ -26,8 +27,8 @@ constexpr std::int64_t memory_ns = 60 * ns_per_s;
 constexpr std::int64_t between_forgetting_ns = 10 * ns_per_s;
 /// Longer without a scan nobody sees where the robot is.
 constexpr std::int64_t longest_silence_ns = 2 * ns_per_s;
-/// More scans do not wait for odometry, and more messages of tf_static are not kept.
-constexpr std::size_t most_mounts = 100;
+/// More scans do not wait for odometry, and more transforms of tf_static are not kept.
+constexpr std::size_t most_mounts = 10'000;
 constexpr std::size_t most_pending = 200;
 
 /// What errors name.
@@ -139,8 +140,18 @@ void LiveDrive::begin_anew() {
   last_keyframe_.reset();
   forgotten_until_ns_.reset();
   const bags::Connection& connection = connections_.at(topics_.name_space + "/tf_static");
-  for (const std::string& bytes : mounts_)
-    contents_.take({&connection, 0, bytes, {.file = connection.topic}});
+  std::vector<bags::FrameTransform> mounts;
+  for (const auto& [frames, mount] : mounts_) mounts.push_back(mount);
+  contents_.take({&connection, 0, bags::serialized(mounts), {.file = connection.topic}});
+}
+
+/// What senders repeat counts once.
+void LiveDrive::note_mounts(const bags::RecordedMessage& message) {
+  for (bags::FrameTransform& mount : bags::read_transforms(message)) {
+    const std::pair frames(mount.header.frame, mount.child_frame);
+    if (mounts_.size() < most_mounts || mounts_.contains(frames))
+      mounts_.insert_or_assign(frames, std::move(mount));
+  }
 }
 
 void LiveDrive::take(const LiveMessage& message) {
@@ -153,9 +164,7 @@ void LiveDrive::take(const LiveMessage& message) {
     if (bags::has_scans(connection->second.type)) return take_scan(recorded);
     contents_.take(recorded);
     is_news_ = true;
-    if (!message.topic.name.ends_with("/tf_static")) return note_odometry(recorded);
-    mounts_.push_back(message.bytes);
-    if (mounts_.size() > most_mounts) mounts_.pop_front();
+    message.topic.name.ends_with("/tf_static") ? note_mounts(recorded) : note_odometry(recorded);
   } catch (const ConfigError& error) {
     // What is wrong has numbers in it that are others in each message.
     warn_once(fmt::format("a message of {} is left out: {}", shown(message.topic.name), error.what()),

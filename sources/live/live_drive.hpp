@@ -11,6 +11,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "glocal/catalog.hpp"
@@ -89,6 +90,7 @@ class LiveDrive final : public ObservationSource {
   void choose_scans(const std::vector<LiveTopic>& there);
   void subscribe(const LiveTopic& topic, Delivery delivery);
   void take(const LiveMessage& message);
+  void note_mounts(const bags::RecordedMessage& message);
   void note_odometry(const bags::RecordedMessage& message);
   void take_scan(const bags::RecordedMessage& message);
   void begin_anew();
@@ -123,9 +125,10 @@ class LiveDrive final : public ObservationSource {
   std::map<std::string, bags::Connection> connections_;  ///< By topic that is asked for.
   std::optional<Clock::time_point> first_call_, first_scans_seen_;
   bags::ContentsReader contents_;
-  std::deque<std::string> mounts_;  ///< Messages of tf_static: they hold when the clock jumps, too.
-  std::string why_no_frames_;       ///< What is missing to know where the robot is.
-  bool is_news_ = false;            ///< Since newest() was asked last.
+  /// Of tf_static, by parent and child: they hold when the clock jumps, too.
+  std::map<std::pair<std::string, std::string>, bags::FrameTransform> mounts_;
+  std::string why_no_frames_;  ///< What is missing to know where the robot is.
+  bool is_news_ = false;       ///< Since newest() was asked last.
   std::deque<Pending> pending_;
   std::int64_t received_ns_ = 0, scan_received_ns_ = 0;  ///< The last message, and the last scan.
   std::optional<std::int64_t> last_stamp_ns_;            ///< Of that scan.

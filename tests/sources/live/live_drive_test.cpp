@@ -213,13 +213,17 @@ TEST_F(Live, ForgetsWhereTheRobotWasThoughNoScanComes) {
 
 TEST_F(Live, AClockThatJumpsBackBeginsADriveOfItsOwnOnTheSameRobot) {
   const Pose3 mount = Pose2{0.5, 0.0, 0.0};
-  link_->put({"/tf_static", "tf2_msgs/TFMessage"}, 0, transform("base_link", "laser", 0, mount));
+  const LiveTopic tf_static{"/tf_static", "tf2_msgs/TFMessage"};
+  link_->put(tf_static, 0, transform("base_link", "laser", 0, mount));
+  for (int i = 0; i < 200; ++i)
+    link_->put(tf_static, 0, transform("base_link", "camera", i * 10 * ms, Pose2{0.1, 0.0, 0.0}));
   for (int i = 50; i <= 52; ++i) odometry(i * second / 10);
   scan(5 * second + 100 * ms, "laser");
   const auto before = drive().next();
   ASSERT_TRUE(before);
   scan(100 * ms, "laser");
   for (int i = 0; i <= 2; ++i) odometry(i * second / 10);
+  link_->end();
   const auto after = drive().next();
   ASSERT_TRUE(after);
   EXPECT_NE(after->segment, before->segment);
