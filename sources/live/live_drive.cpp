@@ -137,6 +137,7 @@ void LiveDrive::begin_anew() {
   if (!topics_.scans.empty()) contents_.add_scans(topics_.scans);
   pending_.clear();
   last_stamp_ns_.reset();
+  placed_ns_.reset();
   last_keyframe_.reset();
   forgotten_until_ns_.reset();
   const bags::Connection& connection = connections_.at(topics_.name_space + "/tf_static");
@@ -186,24 +187,32 @@ void LiveDrive::note_odometry(const bags::RecordedMessage& message) {
 void LiveDrive::take_scan(const bags::RecordedMessage& message) {
   const auto header = bags::readable_header(message);
   if (!header) return warn_once("a scan without a header is left out");
-  if (last_stamp_ns_ && *last_stamp_ns_ - header->stamp_ns > jump_back_ns) {
-    warn_(fmt::format("stamps jump back by {:.1f} s: what follows is a drive of its own",
-                      bags::seconds(*last_stamp_ns_ - header->stamp_ns)));
-    begin_anew();
-    ++segment_;
-  } else if (last_stamp_ns_ && header->stamp_ns <= *last_stamp_ns_) {
+  if (last_stamp_ns_ && header->stamp_ns <= *last_stamp_ns_ && !is_back_at(header->stamp_ns))
     return warn_once("a scan is left out, as its stamp stands still or runs backwards");
-  } else if (last_stamp_ns_ && bags::seconds(header->stamp_ns - *last_stamp_ns_) > bags::longest_pause) {
-    warn_(fmt::format("stamps jump by {:.0f} s: what follows is a drive of its own",
-                      bags::seconds(header->stamp_ns - *last_stamp_ns_)));
-    ++segment_;
-  }
+  is_behind_ = false;
   last_stamp_ns_ = header->stamp_ns;
-  scan_received_ns_ = message.stamp_ns;
   contents_.take(message);
-  pending_.push_back({*header, bags::read_rays(message, limits_of(topics_)), segment_});
+  pending_.push_back({*header, message.stamp_ns, bags::read_rays(message, limits_of(topics_))});
   if (pending_.size() > most_pending) pending_.pop_front();
   is_news_ = true;
+}
+
+/// A single stamp may be a mistake: those before it, if they lie where odometry has not come to, or else this
+/// one, until the next scan's lies back, too.
+bool LiveDrive::is_back_at(std::int64_t stamp_ns) {
+  const std::int64_t back_ns = *last_stamp_ns_ - stamp_ns;
+  if (back_ns <= jump_back_ns) return false;
+  if (placed_ns_ && stamp_ns > *placed_ns_) {
+    warn_once("a scan is left out, as its stamp is in the future");
+    std::erase_if(pending_, [&](const Pending& scan) { return scan.header.stamp_ns >= stamp_ns; });
+    return true;
+  }
+  if (!std::exchange(is_behind_, true)) return false;
+  warn_(fmt::format("stamps jump back by {:.1f} s: what follows is a drive of its own",
+                    bags::seconds(back_ns)));
+  begin_anew();
+  ++segment_;
+  return true;
 }
 
 std::optional<Sample> LiveDrive::next() {
@@ -276,18 +285,31 @@ std::optional<Sample> LiveDrive::newest() {
   return newest;
 }
 
+/// Where the robot was is known at a scan's stamp, so that it is no mistake.
+void LiveDrive::note_place(const Pending& scan) {
+  const std::int64_t stamp_ns = scan.header.stamp_ns;
+  if (placed_ns_ && bags::seconds(stamp_ns - *placed_ns_) > bags::longest_pause) {
+    warn_(fmt::format("stamps jump by {:.0f} s: what follows is a drive of its own",
+                      bags::seconds(stamp_ns - *placed_ns_)));
+    ++segment_;
+  }
+  placed_ns_ = stamp_ns;
+  placed_received_ns_ = scan.received_ns;
+}
+
 /// None where the robot has not moved on, or the scan cannot be placed.
 std::optional<Sample> LiveDrive::observed(const Pending& scan, const bags::ScanPlacer& placer,
                                           const bags::DriveContents& contents) {
   const std::int64_t stamp = scan.header.stamp_ns;
   const auto odom_from_robot = robot_at(stamp, contents);
-  Sample sample{{bags::seconds(stamp), {}, odom_from_robot.value_or(Pose3{})}, std::nullopt, scan.segment};
   if (odom_from_robot) {
-    const bool is_next = !last_keyframe_ || scan.segment != segment_of_keyframe_ ||
+    note_place(scan);
+    const bool is_next = !last_keyframe_ || segment_ != segment_of_keyframe_ ||
                          is_keyframe(*last_keyframe_, *odom_from_robot, topics_.keyframes);
     if (!is_next) return std::nullopt;
     last_keyframe_ = odom_from_robot;
-    segment_of_keyframe_ = scan.segment;
+    segment_of_keyframe_ = segment_;
+    Sample sample{{bags::seconds(stamp), {}, *odom_from_robot}, std::nullopt, segment_};
     if (placer.add(scan.rays, scan.header, stamp, 1, sample.observation.scan)) return sample;
   }
   warn_once(
@@ -298,7 +320,7 @@ std::optional<Sample> LiveDrive::observed(const Pending& scan, const bags::ScanP
 
 /// As the stamps of scans have it, by what has passed since the last one: odometry may go on without them.
 std::int64_t LiveDrive::now_ns() const {
-  return *last_stamp_ns_ + (received_ns_ - scan_received_ns_);
+  return *placed_ns_ + (received_ns_ - placed_received_ns_);
 }
 
 bool LiveDrive::is_time_to_forget() const {
@@ -306,7 +328,7 @@ bool LiveDrive::is_time_to_forget() const {
 }
 
 void LiveDrive::forget() {
-  if (!forgotten_until_ns_) forgotten_until_ns_ = now_ns();
+  if (placed_ns_ && !forgotten_until_ns_) forgotten_until_ns_ = now_ns();
   if (!is_time_to_forget()) return;
   forgotten_until_ns_ = now_ns() - memory_ns;
   contents_.forget_before(*forgotten_until_ns_);

@@ -82,8 +82,8 @@ class LiveDrive final : public ObservationSource {
   /// A scan of which it is not yet known where it was made.
   struct Pending {
     bags::Header header;
+    std::int64_t received_ns;
     bags::SensorScan rays;
-    int segment;
   };
 
   void ask_for_topics();
@@ -93,6 +93,8 @@ class LiveDrive final : public ObservationSource {
   void note_mounts(const bags::RecordedMessage& message);
   void note_odometry(const bags::RecordedMessage& message);
   void take_scan(const bags::RecordedMessage& message);
+  /// Whether the clock has gone back to this stamp, and what was known of later ones is forgotten.
+  [[nodiscard]] bool is_back_at(std::int64_t stamp_ns);
   void begin_anew();
   /// The newest observation that can be made, and none of those before it.
   [[nodiscard]] std::optional<Sample> newest();
@@ -101,6 +103,7 @@ class LiveDrive final : public ObservationSource {
                                               const bags::DriveContents& contents) const;
   [[nodiscard]] std::size_t decided(const bags::ScanPlacer& placer,
                                     const bags::DriveContents& contents) const;
+  void note_place(const Pending& scan);
   [[nodiscard]] std::optional<Sample> observed(const Pending& scan, const bags::ScanPlacer& placer,
                                                const bags::DriveContents& contents);
   [[nodiscard]] std::int64_t now_ns() const;
@@ -130,9 +133,12 @@ class LiveDrive final : public ObservationSource {
   std::string why_no_frames_;  ///< What is missing to know where the robot is.
   bool is_news_ = false;       ///< Since newest() was asked last.
   std::deque<Pending> pending_;
-  std::int64_t received_ns_ = 0, scan_received_ns_ = 0;  ///< The last message, and the last scan.
-  std::optional<std::int64_t> last_stamp_ns_;            ///< Of that scan.
-  std::optional<std::int64_t> odometry_ns_;              ///< Of the last message of odometry.
+  std::optional<std::int64_t> last_stamp_ns_;  ///< Of the last scan.
+  bool is_behind_ = false;  ///< A scan that came after it was left out, as it lay far back.
+  /// Of the last scan of which it is known where the robot was.
+  std::optional<std::int64_t> placed_ns_;
+  std::optional<std::int64_t> odometry_ns_;                ///< Of the last message of odometry.
+  std::int64_t received_ns_ = 0, placed_received_ns_ = 0;  ///< The last message, and that scan.
   std::optional<std::int64_t> forgotten_until_ns_;
   std::optional<Pose3> last_keyframe_;  ///< The robot in the odometry's frame.
   int segment_ = 0, segment_of_keyframe_ = 0;

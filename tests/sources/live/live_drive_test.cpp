@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 
 #include "files.hpp"
 #include "sources/bags/bag_drive.hpp"
@@ -47,7 +48,9 @@ TEST(LiveDrive, DeliversWhatARecordingOfTheSameMessagesDoes) {
       recording.transform("odom", "base_link", 50 * ms * i, Pose2{0.7 * way, 0.1 * way, 0.2 * way});
     if (i % 3 == 0)
       recording.scan("/scan", 50 * ms * i + 7 * ms, scan_fields(2.0F + 0.01F * static_cast<float>(i)));
+    // Stamps that are off.
     if (i == 90) recording.scan("/scan", 30 * ms, scan_fields(9.0F), 50 * ms * i + 8 * ms);
+    if (i == 150) recording.scan("/scan", 1000 * second, scan_fields(9.0F), 50 * ms * i + 8 * ms);
   }
   TemporaryFolder folder;
   const FilePath path = file_path(folder.write("drive.mcap", recording.bytes()));
@@ -63,6 +66,7 @@ TEST(LiveDrive, DeliversWhatARecordingOfTheSameMessagesDoes) {
     ASSERT_TRUE(got) << n;
     EXPECT_EQ(got->observation.stamp, expected->observation.stamp) << n;
     EXPECT_EQ(got->observation.odom_from_robot, expected->observation.odom_from_robot) << n;
+    EXPECT_EQ(got->segment, expected->segment) << n;
     EXPECT_TRUE(are_equal(got->observation.scan.hits, expected->observation.scan.hits)) << n;
     EXPECT_EQ(got->observation.scan.origin.x, expected->observation.scan.origin.x) << n;
     ++n;
@@ -221,7 +225,7 @@ TEST_F(Live, AClockThatJumpsBackBeginsADriveOfItsOwnOnTheSameRobot) {
   scan(5 * second + 100 * ms, "laser");
   const auto before = drive().next();
   ASSERT_TRUE(before);
-  scan(100 * ms, "laser");
+  for (const std::int64_t stamp : {50 * ms, 100 * ms}) scan(stamp, "laser");
   for (int i = 0; i <= 2; ++i) odometry(i * second / 10);
   link_->end();
   const auto after = drive().next();
@@ -229,7 +233,36 @@ TEST_F(Live, AClockThatJumpsBackBeginsADriveOfItsOwnOnTheSameRobot) {
   EXPECT_NE(after->segment, before->segment);
   EXPECT_NEAR(after->observation.odom_from_robot.x, 0.1, 1e-9);
   EXPECT_NEAR(after->observation.scan.origin.x, 0.5, 1e-6);
-  EXPECT_THAT(warnings_, ElementsAre(HasSubstr("jump back by 5.0 s")));
+  EXPECT_THAT(warnings_, ElementsAre(HasSubstr("runs backwards"), HasSubstr("jump back by 5.0 s")));
+}
+
+TEST_F(Live, AStampThatIsOffCostsItsScanAlone) {
+  for (int i = 50; i <= 70; ++i) odometry(i * second / 10);
+  scan(5 * second);
+  ASSERT_TRUE(drive().next());
+  const std::map<std::int64_t, double> right_by_wrong = {
+      {0 * second, 5.5}, {30 * second, 5.9}, {1000 * second, 6.3}};
+  for (const auto& [wrong, right] : right_by_wrong) {
+    scan(wrong);
+    scan(static_cast<std::int64_t>(right * 1e9));
+    link_->end();
+    const auto sample = drive().next();
+    ASSERT_TRUE(sample) << wrong;
+    EXPECT_DOUBLE_EQ(sample->observation.stamp, right);
+    EXPECT_EQ(sample->segment, 0);
+  }
+}
+
+TEST_F(Live, AfterAPauseADriveOfItsOwnBegins) {
+  for (const std::int64_t stamp : {5 * second, 66 * second}) {
+    odometry(stamp);
+    scan(stamp);
+    link_->end();
+    const auto sample = drive().next();
+    ASSERT_TRUE(sample) << stamp;
+    EXPECT_EQ(sample->segment, stamp == 5 * second ? 0 : 1);
+  }
+  EXPECT_THAT(warnings_, ElementsAre(HasSubstr("jump by 61 s")));
 }
 
 TEST_F(Live, OdometryMayBeATopic) {
