@@ -286,7 +286,7 @@ TEST_F(PluginCommand, WhatIsNoPluginIsRefused) {
 }
 
 TEST_F(PluginCommand, WhatDoesNotFitThisProgramIsRefused) {
-  expect_refused(plugin("wrong_tag"), {"API version (it: 999, glocal: 14)",
+  expect_refused(plugin("wrong_tag"), {"API version (it: 999, glocal: 15)",
                                        "size of Hypothesis (it: none, glocal: ", "build it again"});
   expect_refused(plugin("missing_dependency"), {"libgone.so", "install what is missing"});
   expect_refused(plugin("duplicate"),

@@ -30,7 +30,7 @@
 namespace glocal {
 
 /// Counts up when interfaces or values change so that plugins must be changed or built again.
-inline constexpr int plugin_api_version = 14;
+inline constexpr int plugin_api_version = 15;
 
 /// What glocal and a plugin must have in common to understand each other, as whoever includes this header was
 /// compiled: a line for each property, "name: value".
