@@ -229,10 +229,9 @@ std::optional<Sample> LiveDrive::next() {
       if (!link_->is_live()) break;
     }
     if (auto sample = newest()) return sample;
-    if (message) continue;
-    if (link_->has_ended()) return std::nullopt;
-    check_first_wait();
-    if (meanwhile_()) continue;
+    if (!message && link_->has_ended()) return std::nullopt;
+    if (!message) check_first_wait();
+    if (meanwhile_() || message) continue;
     if ((message = link_->next(between_looks))) take(*message);
   }
   return std::nullopt;
