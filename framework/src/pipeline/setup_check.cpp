@@ -83,7 +83,7 @@ bool is_motion(const Pose2& motion) {
 }
 
 bool turn_alike(const Pose2& odometry, const Pose2& scans) {
-  return std::abs(scans.theta - odometry.theta) <=
+  return rotation_between(scans, odometry) <=
          turn_tolerance + turn_tolerance_share * std::abs(odometry.theta);
 }
 
@@ -124,7 +124,7 @@ double median(std::vector<double> values) {
 /// How far two motions are from being alike, in [0, 2].
 double difference(const Pose2& odometry, const Pose2& scans) {
   constexpr double other_turn = radians(10.0), other_way = 0.25;
-  return std::min(std::abs(scans.theta - odometry.theta) / other_turn, 1.0) +
+  return std::min(rotation_between(scans, odometry) / other_turn, 1.0) +
          std::min(std::abs(length_of(scans) - length_of(odometry)) / other_way, 1.0);
 }
 
@@ -237,8 +237,8 @@ bool SetupMonitor::is_mirrored(double turned_rad) const {
   double difference = 0.0, mirrored_difference = 0.0;
   for (const Motions& m : motions_) {
     if (!m.scans || std::abs(m.odometry.theta) < turn_tolerance) continue;
-    difference += std::abs(m.scans->theta - m.odometry.theta);
-    mirrored_difference += std::abs(m.scans->theta + m.odometry.theta);
+    difference += rotation_between(*m.scans, m.odometry);
+    mirrored_difference += rotation_between(*m.scans, inverse(m.odometry));
   }
   return difference >= turned_rad && mirrored_difference < share_of_better * difference;
 }

@@ -95,6 +95,14 @@ TEST(SetupCheck, SensorUpsideDownTurnsTheOtherWay) {
   EXPECT_THAT(check.why(), testing::HasSubstr("upside down"));
 }
 
+TEST(SetupCheck, AboutHalfATurnLeftAndRightAreTheSame) {
+  Robot robot;
+  const SetupCheck check = robot.move({0.3, 0.0, radians(178.0)}, {0.3, 0.0, radians(-178.0)});
+  EXPECT_EQ(check.fault, std::nullopt) << "they differ by 4 degrees";
+  EXPECT_FALSE(check.is_in_doubt);
+  EXPECT_DOUBLE_EQ(check.agreement, 1.5);
+}
+
 TEST(SetupCheck, SensorThatLooksTooFarToTheLeftMovesToTheRight) {
   Robot robot;
   const Pose2 aside{0.3 * std::cos(radians(15.0)), -0.3 * std::sin(radians(15.0)), 0.0};
