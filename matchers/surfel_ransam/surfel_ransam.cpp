@@ -23,23 +23,11 @@ constexpr std::size_t partners = 8;
 /// from the score.
 constexpr double seen_through_weight = 1.0;
 
-/// No lidar of a robot sees farther, and a single hit there would make a table of voxels too large.
-Points without_far_ones(const LocalMap& local) {
-  constexpr float farthest_m = 500.0F;
-  const Point robot = as_point(local.local_from_robot.translation());
-  Points near;
-  near.reserve(local.points.size());
-  for (std::size_t i = 0; i < local.points.size(); ++i) {
-    if (length(local.points[i] - robot) <= farthest_m) near.push_back(local.points[i]);
-  }
-  return near;
-}
-
 /// The local map's surfels, finer than those of the map: a narrow view has few. With the view of the latest
 /// scan: where a local map of many scans was seen from is not known.
 surfels::PreparedCloud prepared(const LocalMap& local, const Scan& latest, float voxel_size) {
   constexpr float finer = 2.0F / 3.0F;
-  surfels::PreparedCloud cloud(without_far_ones(local), finer * voxel_size, std::nullopt);
+  surfels::PreparedCloud cloud(surfels::points_in_view(local), finer * voxel_size, std::nullopt);
   if (!latest.hits.empty()) {
     const RigidMotion local_from_robot(local.local_from_robot);
     cloud.view.emplace(moved(latest.hits, local.local_from_robot), local_from_robot(latest.origin));

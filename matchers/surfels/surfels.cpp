@@ -115,6 +115,17 @@ std::vector<float> balanced_weights(const Points& normals) {
 
 }  // namespace
 
+Points points_in_view(const LocalMap& local) {
+  constexpr float farthest = 500.0F;
+  const Point robot = as_point(local.local_from_robot.translation());
+  Points near;
+  near.reserve(local.points.size());
+  for (std::size_t i = 0; i < local.points.size(); ++i) {
+    if (length(local.points[i] - robot) <= farthest) near.push_back(local.points[i]);
+  }
+  return near;
+}
+
 Surfels surfels_of(const Points& cloud, float voxel_size, const std::optional<Point>& seen_from) {
   constexpr float near = 2.5F;
   constexpr float far = 5.0F;

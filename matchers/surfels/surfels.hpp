@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "glocal/local_map.hpp"
 #include "glocal/points.hpp"
 
 namespace glocal::surfels {
@@ -25,5 +26,9 @@ struct Surfels {
 /// plane; else of those within 5 voxels. Throws ConfigError if the cloud reaches too far (VoxelRegion).
 [[nodiscard]] Surfels surfels_of(const Points& cloud, float voxel_size,
                                  const std::optional<Point>& seen_from);
+
+/// The points of a local map that are at most 500 m from the robot: no lidar of a robot sees farther, and a
+/// single hit there would make a table of voxels too large.
+[[nodiscard]] Points points_in_view(const LocalMap& local);
 
 }  // namespace glocal::surfels

@@ -81,6 +81,16 @@ TEST(TriangleRansam, FindsNothingForAnEmptyLocalMapNorForOneWithoutSurfaces) {
   EXPECT_TRUE(match(Motion::free, point, 0.0).hypotheses.empty());
 }
 
+TEST(TriangleRansam, OneHitKilometresAwayChangesNothing) {
+  const Pose3 truth{{8.0, 4.0, 1.2}, turn_about_z(-2.5)};
+  LocalMap local = local_at(truth);
+  local.points.push_back({3000.0F, 3000.0F, 700.0F});
+  local.ends = {local.points.size()};
+  const MatchResult result = match(Motion::upright, local, 0.4);
+  ASSERT_FALSE(result.hypotheses.empty());
+  EXPECT_LT(distance(result.hypotheses.front().map_from_local, truth), 0.3);
+}
+
 TEST(TriangleRansam, RefusesMapsWithoutSurfaces) {
   MapData line;
   for (int i = 0; i < 100; ++i) line.points.push_back({0.1F * static_cast<float>(i), 0.0F, 0.0F});
