@@ -95,7 +95,7 @@ MatchResult TriangleRansam::match(const MatchRequest& request, Rng& rng) {
   if (local.points.empty()) return {};
   const TripleMatching::Draws draws{rng.next(), rng.next()};
   const QualityTest quality(local.points, contact_, extrapolation_rule(params_), request.omega_max, rng);
-  const Points in_view = surfels::points_in_view(local);
+  const Points in_view = surfels::points_in_view(local, voxel_size_);
   const SurfacePoints surfaces(in_view, spread_evenly(in_view, voxel_size_), voxel_size_);
   if (surfaces.points.empty()) return {};
   return matching_.match(surfaces.points, diagonal(surfaces.points), local.local_from_robot, draws,

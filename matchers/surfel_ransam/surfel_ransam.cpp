@@ -26,8 +26,8 @@ constexpr double seen_through_weight = 1.0;
 /// The local map's surfels, finer than those of the map: a narrow view has few. With the view of the latest
 /// scan: where a local map of many scans was seen from is not known.
 surfels::PreparedCloud prepared(const LocalMap& local, const Scan& latest, float voxel_size) {
-  constexpr float finer = 2.0F / 3.0F;
-  surfels::PreparedCloud cloud(surfels::points_in_view(local), finer * voxel_size, std::nullopt);
+  const float side = 2.0F / 3.0F * voxel_size;
+  surfels::PreparedCloud cloud(surfels::points_in_view(local, side), side, std::nullopt);
   if (!latest.hits.empty()) {
     const RigidMotion local_from_robot(local.local_from_robot);
     cloud.view.emplace(moved(latest.hits, local.local_from_robot), local_from_robot(latest.origin));

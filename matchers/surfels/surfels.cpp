@@ -1,5 +1,6 @@
 #include "matchers/surfels/surfels.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -115,8 +116,8 @@ std::vector<float> balanced_weights(const Points& normals) {
 
 }  // namespace
 
-Points points_in_view(const LocalMap& local) {
-  constexpr float farthest = 500.0F;
+Points points_in_view(const LocalMap& local, float voxel_size) {
+  const float farthest = std::min(500.0F, 2000.0F * voxel_size);
   const Point robot = as_point(local.local_from_robot.translation());
   Points near;
   near.reserve(local.points.size());

@@ -27,8 +27,8 @@ struct Surfels {
 [[nodiscard]] Surfels surfels_of(const Points& cloud, float voxel_size,
                                  const std::optional<Point>& seen_from);
 
-/// The points of a local map that are at most 500 m from the robot: no lidar of a robot sees farther, and a
-/// single hit there would make a table of voxels too large.
-[[nodiscard]] Points points_in_view(const LocalMap& local);
+/// The points of a local map that are at most 500 m and 2000 voxels from the robot: no lidar of a robot sees
+/// farther, and of a few hits there the voxels would be too many for surfels_of().
+[[nodiscard]] Points points_in_view(const LocalMap& local, float voxel_size);
 
 }  // namespace glocal::surfels

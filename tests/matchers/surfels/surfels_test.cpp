@@ -51,6 +51,23 @@ TEST(Surfels, NormalsOfAHallAreThoseOfItsSidesAndPointToTheSensor) {
               static_cast<float>(surfels.size()), 1.0F);
 }
 
+TEST(Surfels, PointsInViewOfARobotFitIntoATableOfVoxels) {
+  constexpr float robot_x = 7.0F;
+  LocalMap local;
+  local.local_from_robot = Pose3(Vector3{robot_x, 0.0, 0.0});
+  for (const float away : {-199.0F, 199.0F}) {
+    local.points.push_back({robot_x + away, 0.0F, 0.0F});
+    local.points.push_back({robot_x, away, 0.0F});
+    local.points.push_back({robot_x, 0.0F, away});
+  }
+  local.points.push_back({robot_x, 0.0F, 201.0F});
+  local.points.push_back({robot_x, 0.0F, 501.0F});
+  const Points in_view = points_in_view(local, 0.1F);
+  EXPECT_EQ(in_view.size(), 6U);
+  EXPECT_NO_THROW(VoxelRegion(in_view, 0.1F, 2));
+  EXPECT_EQ(points_in_view(local, 1.0F).size(), 7U) << "no lidar sees farther than 500 m";
+}
+
 TEST(PreparedCloud, ACloudAgreesWithItselfAndNothingIsSeenThrough) {
   const Points scan = scan_of(hall(), place);
   const PreparedCloud cloud(scan, voxel, Point{});
