@@ -93,9 +93,7 @@ Exhaustive::Exhaustive(const Params& params, const StageSetup& setup)
           contact_index(*setup.map, params.contact, setup.epsilon(params.matching.grid.contact_epsilon))),
       threads_(setup.threads),
       frame_(cell_frame(setup.map->points(), params.matching.grid.cell,
-                        setup.epsilon(params.matching.grid.contact_epsilon))),
-      contact_(
-          contact_index(*setup.map, params.contact, setup.epsilon(params.matching.grid.contact_epsilon))) {
+                        setup.epsilon(params.matching.grid.contact_epsilon))) {
   check_cell(params.matching.grid.cell, setup.epsilon(params.matching.grid.contact_epsilon));
 }
 
@@ -131,7 +129,7 @@ FoundPlaces Exhaustive::search_rotation(const PoseGrid& grid, std::size_t rotati
   const Translations all = grid.translations(grid.cells(0, rotation), least);
   const Pose2 at_zero = grid.pose(0, rotation, 0.0, 0.0);
   const Transform turned(at_zero);
-  Candidates candidates(*contact_, points, least);
+  Candidates candidates(contact(), points, least);
   FoundPlaces found;
   for (int row = all.first_row; row <= all.last_row; ++row) {
     for (int column = all.first_column; column <= all.last_column; ++column) {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <memory>
-
 #include "matchers/box_search/allowed_translations.hpp"
 #include "matchers/box_search/best_places.hpp"
 #include "matchers/box_search/pose_boxes.hpp"
@@ -37,7 +35,6 @@ class Exhaustive final : public GridMatcher {
 
   int threads_;
   CellFrame frame_;
-  std::shared_ptr<const ContactIndex> contact_;
 };
 void describe(ParamVisitor& v, Exhaustive::Params& p);
 

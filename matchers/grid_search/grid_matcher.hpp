@@ -53,6 +53,9 @@ class GridMatcher : public Matcher {
   [[nodiscard]] MatchResult match(const MatchRequest& request, Rng& rng) final;
   void reset() final {}
 
+ protected:
+  [[nodiscard]] const ContactIndex& contact() const { return *contact_; }
+
  private:
   [[nodiscard]] virtual BoxSearchResult search(const Points& points, const Pose3& local_from_robot,
                                                const BoxSearchRule& rule) const = 0;
