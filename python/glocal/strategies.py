@@ -52,6 +52,9 @@ from glocal._core import (
 from glocal.errors import ConfigError
 
 
+_MOTIONS = ("planar", "upright", "free")
+
+
 class _Strategy:
     """What all strategies have in common."""
 
@@ -364,6 +367,8 @@ def _registered_as(name: str, strategy: type[_Strategy]) -> _Registered:
         raise TypeError(f"{strategy.__qualname__} lacks the method {', '.join(missing)}() that each {strategy.kind} must have")
     if hasattr(strategy, "reset") and not issubclass(strategy, _Remembering):
         raise TypeError(f"{strategy.__qualname__} has reset(), which is never called: a {strategy.kind} keeps nothing of earlier steps")
+    if not strategy.motions or not set(strategy.motions) <= set(_MOTIONS):
+        raise TypeError(f"{strategy.__qualname__}.motions is {strategy.motions!r}; it must be a tuple of some of {_MOTIONS}")
     doc = _first_sentence(strategy.__dict__.get("__doc__"))
     if not doc:
         raise TypeError(f"{strategy.__qualname__} needs a docstring: its first sentence tells users what it does")
