@@ -27,8 +27,8 @@ def _plain(value: Any) -> Any:
 
 
 def _yaml(value: Any) -> str:
-    """A value as it is given with --set. JSON is YAML, too."""
-    return value if isinstance(value, str) else json.dumps(value, default=_plain)
+    """A value as it is given with --set. JSON is YAML, too, but for its surrogates of characters beyond 16 bits."""
+    return value if isinstance(value, str) else json.dumps(value, ensure_ascii=False, default=_plain)
 
 
 def _pairs(changes: Mapping[str, Any]) -> list[tuple[str, str]]:

@@ -61,6 +61,13 @@ def test_values_within_values_are_taken_as_they_are_alone(room):
             changed.with_(seed=wrong)
 
 
+def test_paths_may_have_any_characters(room, tmp_path):
+    world = tmp_path / "w\u00f6rld \U0001f916.yaml"
+    world.write_bytes((tmp_path / "world.yaml").read_bytes())
+    changed = glocal.Experiment.load(room).with_(map={"simulation": {"world": world}})
+    assert world.name in changed.effective_yaml()
+
+
 def test_what_is_changed_last_holds(room):
     iterations = "localizer.matcher.ransam.iterations"
     first = glocal.Experiment.load(room).with_(**{iterations: 1000})
