@@ -120,8 +120,10 @@ void PythonParams::check(ParamVisitor& visitor) const {
   try {
     (*strategy_->make_params)(**values());
   } catch (const py::error_already_set& error) {
-    if (!error.matches(PyExc_ValueError)) throw std::runtime_error(told(error));
-    visitor.require(false, strategy_->fields.front()->name, py::str(error.value()).cast<std::string>());
+    if (!error.matches(PyExc_Exception)) throw std::runtime_error(told(error));  // Ctrl-C
+    const std::string rule =
+        error.matches(PyExc_ValueError) ? py::str(error.value()).cast<std::string>() : told(error);
+    visitor.require(false, strategy_->fields.front()->name, rule);
   }
 }
 

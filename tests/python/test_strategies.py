@@ -338,6 +338,29 @@ def test_rules_that_span_parameters_are_faults_with_a_place(room):
     glocal.Experiment.load(room).with_(**{"localizer.clusterer.ranged.low": -2})
 
 
+def test_parameters_that_cannot_be_made_are_faults_with_a_place_and_defaults_need_not_be_any(room):
+    @glocal.register("scaled")
+    class Scaled(glocal.Clusterer):
+        """Has a parameter that must be given."""
+
+        @dataclass
+        class Params:
+            side: float = glocal.param(doc="Side of a cell.")
+
+            def __post_init__(self):
+                self.per_m = 1.0 / self.side
+
+        def cluster(self, hypotheses, rng):
+            return np.zeros(len(hypotheses), int)
+
+    assert "Side of a cell." in glocal.describe("scaled")
+    experiment = glocal.Experiment.load(room)
+    with pytest.raises(glocal.ConfigError, match="scaled.side=0: localizer.clusterer.scaled: side: ZeroDivisionError: float division") as caught:
+        experiment.with_(**{"localizer.clusterer.scaled.side": 0})
+    assert "self.per_m = 1.0 / self.side" in caught.value.faults[0].message
+    experiment.with_(**{"localizer.clusterer.scaled.side": 2})
+
+
 def define(**members):
     return type("Made", (glocal.Clusterer,), {"__doc__": "Does something.", "cluster": lambda s, h, r: h, **members})
 
