@@ -1,8 +1,11 @@
 #include "python/src/python_strategies.hpp"
 
 #include <fmt/format.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -11,6 +14,7 @@
 #include <type_traits>
 #include <unordered_map>
 #include <utility>
+#include <variant>
 
 #include "glocal/clusters_of.hpp"
 #include "glocal/error.hpp"
@@ -332,6 +336,11 @@ bool added(Registry<Interface, Setup>& registry, const std::shared_ptr<const Pyt
   return true;
 }
 
+template <class Setup>
+void note_input(const Setup& setup, const std::variant<std::string, std::filesystem::path>& file) {
+  std::visit([&](const auto& path) { setup.note_input(path); }, file);
+}
+
 }  // namespace
 
 void add_strategy(Catalog& catalog, const std::shared_ptr<const PythonStrategy>& strategy) {
@@ -369,10 +378,8 @@ void bind_setups(py::module_& module) {
       .def_readonly("looks_per_step", &StageSetup::looks_per_step,
                     "Looks at points that searches may take in a step, each about 10 ns.")
       .def_readonly("has_verifier", &StageSetup::has_verifier, "Whether what is declared is verified.")
-      .def(
-          "note_input", [](const StageSetup& s, const std::string& file) { s.note_input(file); },
-          py::arg("file"),
-          "To be called with every file that is read while the stage is made, for the record of a run.");
+      .def("note_input", &note_input<StageSetup>, py::arg("file"),
+           "To be called with every file that is read while the stage is made, for the record of a run.");
   py::class_<SourceSetup>(module, "SourceSetup", "What a source may use when it is made.")
       .def_readonly("seed", &SourceSetup::seed, "The experiment's, for simulated noise.")
       .def_property_readonly(
@@ -380,9 +387,8 @@ void bind_setups(py::module_& module) {
       .def(
           "warn", [](const SourceSetup& s, const std::string& sentence) { s.warn(sentence); },
           py::arg("sentence"), "Takes a sentence that the user should read once.")
-      .def(
-          "note_input", [](const SourceSetup& s, const std::string& file) { s.note_input(file); },
-          py::arg("file"), "To be called with every file that is read, for the record of a run.");
+      .def("note_input", &note_input<SourceSetup>, py::arg("file"),
+           "To be called with every file that is read, for the record of a run.");
 }
 
 }  // namespace glocal::python

@@ -646,6 +646,7 @@ def test_a_setup_can_be_kept_and_does_nothing_once_the_work_is_over(room, tmp_pa
 
         def load(self):
             self.setup.note_input(str(room))
+            self.setup.note_input(room)
             kept.append(self.setup)
             return glocal.GlobalMap(np.column_stack([np.linspace(0, 9, 100), np.ones(100)]))
 
