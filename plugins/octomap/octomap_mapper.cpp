@@ -67,7 +67,13 @@ void OctomapMapper::cast_rays(const Scan& scan, const Pose2& local_from_robot) {
   octomap::KeySet occupied;
   octomap::KeySet passed;
   octomap::KeyRay ray;
+  const auto is_within = [&](const octomap::point3d& p) {
+    octomap::OcTreeKey any;
+    return tree_.coordToKeyChecked(p, any);
+  };
   const auto pass = [&](const octomap::point3d& end) {
+    // OctoMap prints a line for each ray that the tree cannot hold.
+    if (!is_within(origin) || !is_within(end)) return;
     if (tree_.computeRayKeys(origin, end, ray)) passed.insert(ray.begin(), ray.end());
   };
   for (std::size_t i = 0; i < scan.hits.size(); ++i) {

@@ -283,6 +283,20 @@ TEST_F(Octomap, PeopleFadeFromTheLocalMapAndWallsStay) {
   EXPECT_TRUE(std::is_sorted(map.ends.begin(), map.ends.end()));
 }
 
+TEST_F(Octomap, WhatTheTreeCannotHoldIsLeftOutWithoutAWord) {
+  StrategyChoice choice = catalog_.local_mappers.choose("octomap");
+  read_yaml(folder_.write("params.yaml", "resolution: 0.005\nposes: odometry\n"), *choice.params);
+  const auto mapper = catalog_.local_mappers.make(choice, {});
+  Observation observation = room(false);
+  observation.scan.free_ends.push_back({200.0F, 0.0F, 0.0F});  // it reaches up to 164 m
+  testing::internal::CaptureStderr();
+  mapper->add(observation);
+  observation.odom_from_robot.x = 200.0;
+  mapper->add(observation);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_GT(mapper->map().points.size(), 300U);
+}
+
 TEST_F(Octomap, TheLocalMapsFileReadsBackAsAMap) {
   const auto mapper = catalog_.local_mappers.make(catalog_.local_mappers.choose("octomap"), {});
   for (int step = 0; step < 3; ++step) mapper->add(room(false));
