@@ -227,6 +227,15 @@ void try_threshold(const Made<ThresholdPolicy>& make, Findings& findings) {
   });
 }
 
+bool are_equal(const Verdict& a, const Verdict& b) {
+  using Estimate = std::optional<std::pair<Pose3, double>>;
+  const auto estimate = [](const Verdict& v) {
+    return v.estimate ? Estimate({v.estimate->map_from_robot, v.estimate->confidence}) : Estimate();
+  };
+  return a.kind == b.kind && a.map_from_robot == b.map_from_robot && a.candidates == b.candidates &&
+         a.why == b.why && estimate(a) == estimate(b) && a.needs_certificate == b.needs_certificate;
+}
+
 void try_verdict_rule(const Made<VerdictRule>& make, Findings& findings) {
   findings.check("a step with nothing in it", [&] {
     const Verdict verdict = make(1)->judge({});
@@ -238,21 +247,26 @@ void try_verdict_rule(const Made<VerdictRule>& make, Findings& findings) {
     const auto rule = make(1);
     const auto drive = [&] {
       rule->reset();
-      std::vector<VerdictKind> kinds;
+      std::vector<Verdict> verdicts;
       StepResult step = clear_step();
       for (step.step = 0; step.step < 20; ++step.step) {
-        const Verdict verdict = rule->judge(step);
+        Verdict verdict = rule->judge(step);
         check_verdict(verdict, Motion::planar);
         require(verdict.candidates.empty() || verdict.kind == VerdictKind::ambiguous,
                 "there are candidates with the verdict {}", to_string(verdict.kind));
         require(!verdict.why.empty(), "`why` is empty; a sentence for a person says what speaks for it");
-        kinds.push_back(verdict.kind);
+        verdicts.push_back(std::move(verdict));
       }
-      return kinds;
+      return verdicts;
     };
-    const auto first = drive();
-    require(drive() == first, "after reset() the same steps have other verdicts");
-    const auto declared = std::find(first.begin(), first.end(), VerdictKind::localized);
+    const std::vector<Verdict> first = drive();
+    const std::vector<Verdict> again = drive();
+    require(std::equal(first.begin(), first.end(), again.begin(), again.end(),
+                       [](const Verdict& a, const Verdict& b) { return are_equal(a, b); }),
+            "after reset() the same steps have other verdicts");
+    const auto declared = std::find_if(first.begin(), first.end(), [](const Verdict& verdict) {
+      return verdict.kind == VerdictKind::localized;
+    });
     require(declared == first.end() ||
                 static_cast<std::size_t>(declared - first.begin()) + 1 >= rule->least_steps(),
             "a pose is declared before the {} steps that least_steps() says", rule->least_steps());
@@ -319,6 +333,14 @@ void try_contact_index(const ContactIndexes& registry, const StrategyChoice& cho
     const std::size_t n = index->count(far, 0, far.size(), at_rest);
     require(n == 0, "{} of {} are in contact; none is, and nothing that is not a number", n, far.size());
   });
+  findings.check("points of another frame, behind others", [&] {
+    const Pose2 map_from_points{3.0, -2.0, 2.5};
+    Points all = far;
+    for (std::size_t i = 0; i < near.size(); ++i) all.push_back(near[i]);
+    all = moved(all, inverse(map_from_points));
+    const std::size_t n = index->count(all, far.size(), near.size(), Transform(map_from_points));
+    require(n == near.size(), "{} of {} are in contact; all are", n, near.size());
+  });
   findings.check("count_while()", [&] {
     const std::array<std::uint32_t, 1> least{};
     const auto n = index->count_while(near, 0, near.size(), near.size(), least, at_rest).in_contact;
@@ -367,10 +389,12 @@ std::vector<Sample> all_of(ObservationSource& source, Motion motion) {
 }
 
 bool are_equal(const Sample& a, const Sample& b) {
-  return a.observation.stamp == b.observation.stamp && a.observation.scan.hits == b.observation.scan.hits &&
-         a.observation.scan.free_ends == b.observation.scan.free_ends &&
+  const Scan& p = a.observation.scan;
+  const Scan& q = b.observation.scan;
+  return a.observation.stamp == b.observation.stamp && p.hits == q.hits && p.free_ends == q.free_ends &&
+         p.origin == q.origin && p.times == q.times &&
          a.observation.odom_from_robot == b.observation.odom_from_robot &&
-         a.map_from_robot == b.map_from_robot && a.segment == b.segment;
+         a.map_from_robot == b.map_from_robot && a.segment == b.segment && a.map == b.map;
 }
 
 void try_source(const Made<ObservationSource>& make, Motion motion, Findings& findings) {
@@ -388,14 +412,17 @@ void try_source(const Made<ObservationSource>& make, Motion motion, Findings& fi
   });
 }
 
-void try_map_source(const Made<MapSource>& make, Findings& findings) {
+void try_map_source(const Made<MapSource>& make, Motion motion, Findings& findings) {
   findings.check("load()", [&] {
     const MapData first = make(1)->load();
-    check_map(first, Motion::planar);
+    check_map(first, motion);
     const MapData again = make(1)->load();
-    require(
-        first.points == again.points && first.grid.cells == again.grid.cells && first.origin == again.origin,
-        "it gives another map each time");
+    require(first.points == again.points && first.normals == again.normals && first.path == again.path &&
+                first.grid.cells == again.grid.cells &&
+                first.grid.map_from_grid == again.grid.map_from_grid &&
+                first.grid.resolution == again.grid.resolution && first.resolution == again.resolution &&
+                first.origin == again.origin,
+            "it gives another map each time");
   });
 }
 
@@ -468,8 +495,11 @@ void try_others(const std::string& kind, const StrategyChoice& choice, const Mot
                 const Catalog& catalog, Findings& findings) {
   const TrialRoom room(Motion::planar);
   const auto stage = [&](const auto& registry) { return made_for_trial(registry, choice, room); };
+  SourceSetup setup;
+  setup.seed = 7;
+  setup.motion = motions.planar ? Motion::planar : Motion::free;
   const auto source = [&](const auto& registry) {
-    return [&](int /*threads*/) { return registry.make(choice, SourceSetup{.seed = 7}); };
+    return [&](int /*threads*/) { return registry.make(choice, setup); };
   };
   if (kind == catalog.clusterers.kind()) try_clusterer(stage(catalog.clusterers), findings);
   if (kind == catalog.raters.kind()) try_rater(stage(catalog.raters), findings);
@@ -478,8 +508,8 @@ void try_others(const std::string& kind, const StrategyChoice& choice, const Mot
   if (kind == catalog.contact_indexes.kind()) try_contact_index(catalog.contact_indexes, choice, findings);
   if (kind == catalog.cloud_registrars.kind()) try_registrar(catalog.cloud_registrars, choice, findings);
   if (kind == catalog.observation_sources.kind())
-    try_source(source(catalog.observation_sources), motions.planar ? Motion::planar : Motion::free, findings);
-  if (kind == catalog.map_sources.kind()) try_map_source(source(catalog.map_sources), findings);
+    try_source(source(catalog.observation_sources), setup.motion, findings);
+  if (kind == catalog.map_sources.kind()) try_map_source(source(catalog.map_sources), setup.motion, findings);
   if (kind == catalog.message_links.kind()) try_link(source(catalog.message_links), findings);
 }
 

@@ -108,7 +108,8 @@ struct ToyRule final : VerdictRule {
   Verdict judge(const StepResult& step) override {
     if (step.clusters.empty()) return {VerdictKind::searching, {}, {}, "nothing is there"};
     if (++steps < 3) return {VerdictKind::searching, {}, {}, wrong == "silent" ? "" : "too early"};
-    const Pose3 pose = step.clusters.front().map_from_robot;
+    Pose3 pose = step.clusters.front().map_from_robot;
+    if (wrong == "random") pose.x += 1e-6 * different();
     if (wrong == "no pose") return {VerdictKind::localized, {}, {}, "three steps"};
     return {VerdictKind::localized, pose, {}, "three steps"};
   }
@@ -151,10 +152,42 @@ struct ToySource final : ObservationSource {
     }
     Sample sample;
     sample.observation.stamp = wrong == "random" ? different() : given;
+    if (wrong == "random times") {
+      sample.observation.scan.hits.push_back({1.0F, 0.0F, 0.0F});
+      sample.observation.scan.times.push_back(static_cast<float>(different()));
+    }
     return sample;
   }
   std::string wrong;
   int given = 0;
+};
+
+struct ToyMap final : MapSource {
+  using Params = Wrong;
+  static constexpr Motions motions = motions_in_space;
+  explicit ToyMap(const Params& params) : wrong(params.wrong) {}
+  MapData load() override {
+    MapData map;
+    map.points.push_back({1.0F, 2.0F, 3.0F});
+    map.path = {Pose3(Vector3{0.0, 0.0, 1.0})};
+    map.resolution = wrong == "random" ? different() : 0.1;
+    return map;
+  }
+  std::string wrong;
+};
+
+struct ToyIndex final : ContactIndex {
+  using Params = Wrong;
+  ToyIndex(const Params& params, const ContactSetup& setup)
+      : wrong(params.wrong), contact(*setup.map_points, setup.epsilon) {}
+  std::size_t count(const Points& points, std::size_t begin, std::size_t n,
+                    const Transform& map_from_points) const override {
+    if (wrong == "begin") begin = 0;
+    return contact.count(points, begin, n, wrong == "frame" ? Transform(Pose2{}) : map_from_points);
+  }
+  std::size_t memory_bytes() const override { return 0; }
+  std::string wrong;
+  KdTreeContact contact;
 };
 
 struct ToyLink final : MessageLink {
@@ -185,7 +218,9 @@ class Promises : public testing::Test {
     catalog_.threshold_policies.add<ToyThreshold>("toy", "A toy.");
     catalog_.verdict_rules.add<ToyRule>("toy", "A toy.");
     catalog_.observation_sources.add<ToySource>("toy", "A toy.");
+    catalog_.map_sources.add<ToyMap>("toy", "A toy.");
     catalog_.message_links.add<ToyLink>("toy", "A toy.");
+    catalog_.contact_indexes.add<ToyIndex>("toy", "A toy.");
     catalog_.contact_indexes.add<BitsetContact>("bitset", "The framework's.");
     catalog_.contact_indexes.add<KdTreeContact>("kd_tree", "The framework's.");
   }
@@ -200,8 +235,9 @@ class Promises : public testing::Test {
 };
 
 TEST_F(Promises, AreKeptByToysThatDoNothingWrong) {
-  for (const char* kind : {"local_mapper", "matcher", "clusterer", "rater", "threshold_policy",
-                           "verdict_rule", "observation_source", "message_link"})
+  for (const char* kind :
+       {"local_mapper", "matcher", "clusterer", "rater", "threshold_policy", "verdict_rule",
+        "observation_source", "map_source", "message_link", "contact_index"})
     EXPECT_THAT(broken(kind, ""), IsEmpty()) << kind;
   for (const char* name : {"bitset", "kd_tree"})
     EXPECT_THAT(broken_promises("contact_index", {name}, catalog_), IsEmpty()) << name;
@@ -239,7 +275,8 @@ TEST_F(Promises, OfThresholdPolicies) {
 TEST_F(Promises, OfVerdictRules) {
   EXPECT_THAT(broken("verdict_rule", "silent"), ElementsAre(HasSubstr("`why` is empty")));
   EXPECT_THAT(broken("verdict_rule", "no pose"), ElementsAre(HasSubstr("localized, without a pose")));
-  EXPECT_THAT(broken("verdict_rule", "keeps"), ElementsAre(HasSubstr("after reset() the same steps")));
+  for (const char* wrong : {"keeps", "random"})
+    EXPECT_THAT(broken("verdict_rule", wrong), ElementsAre(HasSubstr("after reset() the same steps")));
   EXPECT_THAT(broken("verdict_rule", "least"), ElementsAre(HasSubstr("before the 5 steps")));
 }
 
@@ -251,7 +288,17 @@ TEST_F(Promises, OfLocalMappers) {
 
 TEST_F(Promises, OfSources) {
   EXPECT_THAT(broken("observation_source", "again"), ElementsAre(HasSubstr("another observation after it")));
-  EXPECT_THAT(broken("observation_source", "random"), ElementsAre(HasSubstr("the same seed: ")));
+  for (const char* wrong : {"random", "random times"})
+    EXPECT_THAT(broken("observation_source", wrong), ElementsAre(HasSubstr("the same seed: ")));
+}
+
+TEST_F(Promises, OfMapSources) {
+  EXPECT_THAT(broken("map_source", "random"), ElementsAre(HasSubstr("it gives another map each time")));
+}
+
+TEST_F(Promises, OfContactIndexes) {
+  for (const char* wrong : {"begin", "frame"})
+    EXPECT_THAT(broken("contact_index", wrong), ElementsAre(HasSubstr("points of another frame, behind")));
 }
 
 TEST_F(Promises, OfMessageLinks) {
