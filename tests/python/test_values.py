@@ -167,6 +167,7 @@ def test_a_map_needs_points():
         ({"points": [[0, 0]], "normals": [[math.nan, 0]]}, "a value of the normals is not finite"),
         ({"points": [[0, 0]], "path": [(math.nan, 0, 0)]}, "pose 0 of the path"),
         ({"points": [[0, 0]], "origin": (0, math.nan, 0)}, "the origin is not finite"),
+        ({"points": [[0, 0]], "resolution": math.inf}, "the resolution is inf m"),
         ({"grid": glocal.OccupancyGrid(np.full((2, 2), 2), 0.1, (math.nan, 0, 0)), "points": [[0, 0]]}, "the grid"),
     ],
 )

@@ -90,6 +90,8 @@ void check_map(const MapData& map, Motion motion) {
       "the grid has {} cells for {} columns and {} rows", grid.cells.size(), grid.width, grid.height);
   require(grid.cells.empty() || (grid.resolution > 0.0 && grid.resolution <= farthest_m),
           "the grid's resolution is {} m", grid.resolution);
+  require(map.resolution >= 0.0 && std::isfinite(map.resolution),
+          "the resolution is {} m; it is finite, and 0 where it is not known", map.resolution);
   check_pose(grid.map_from_grid, motion, "the grid");
   for (std::size_t i = 0; i < map.path.size(); ++i) check_pose(map.path[i], motion, "pose {} of the path", i);
 }

@@ -79,6 +79,8 @@ TEST(StageContracts, MapsHavePointsAndAWholeGrid) {
   expect_broken([](MapData& map) { map.grid.cells = PackedCells(1); });
   expect_broken([](MapData& map) { map.grid.width = map.grid.height = -1; });
   expect_broken([](MapData& map) { map.grid.resolution = not_a_number; });
+  expect_broken([](MapData& map) { map.resolution = not_a_number; });
+  expect_broken([](MapData& map) { map.resolution = -0.1; });
   expect_broken([](MapData& map) { map.grid.map_from_grid.x = infinite; });
   expect_broken([](MapData& map) { map.path[0] = Pose2{0, 0, not_a_number}; });
   expect_broken([](MapData& map) { map.origin.y() = not_a_number; });
