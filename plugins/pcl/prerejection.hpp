@@ -4,6 +4,7 @@
 #include <pcl/point_types.h>
 #include <pcl/registration/sample_consensus_prerejective.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
@@ -34,12 +35,14 @@ class OwnRandomNumbers {
 /// Fewer points cannot be matched.
 inline constexpr int points_drawn = 3;
 
-/// A search with the parameters of one of the two; the inlier distance is in m.
+/// A search that has its clouds, with the parameters of one of the two; the inlier distance is in m.
 template <class Params>
 void set_up(Prerejection& align, const Params& params, double inlier_distance) {
   align.setMaximumIterations(params.iterations);
   align.setNumberOfSamples(points_drawn);
-  align.setCorrespondenceRandomness(params.candidates);
+  // PCL draws from as many as it is told, whether there are so many points or not.
+  align.setCorrespondenceRandomness(
+      std::min(params.candidates, static_cast<int>(align.getInputTarget()->size())));
   align.setSimilarityThreshold(static_cast<float>(params.similarity));
   align.setMaxCorrespondenceDistance(inlier_distance);
   align.setInlierFraction(static_cast<float>(params.inlier_fraction));

@@ -56,6 +56,15 @@ TEST_F(Pcl, AnotherOriginOfTheLocalMapChangesNothing) {
   EXPECT_LT(distance(result.hypotheses.front().map_from_local * local_from_robot, truth), 0.03);
 }
 
+TEST_F(Pcl, MoreCandidatesThanPointsAreAllOfThem) {
+  StrategyChoice choice = catalog_.matchers.choose("pcl_prerejective");
+  read_yaml(folder_.write("params.yaml", "{candidates: 1000000, iterations: 1000, runs: 1}"), *choice.params);
+  const auto matcher = catalog_.matchers.make(choice, {glocal::test::small_world(), 1});
+  const LocalMap local = glocal::test::local_map_at({5.5, 2.5, 0.7}, reach);
+  Rng rng(1);
+  EXPECT_LE(matcher->match({local, {}, 0.0}, rng).proposals, 1U);
+}
+
 TEST_F(Pcl, KdTreesOfPclAndOfNanoflannAgreePointByPoint) {
   const auto map = glocal::test::small_world();
   constexpr double epsilon = 0.1;
