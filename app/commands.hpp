@@ -19,10 +19,6 @@ struct Context {
   std::string command_line;  ///< As a shell would read it, for the record of runs.
 };
 
-/// The registry of a kind; null if there is none, of which unknown_kind() tells.
-[[nodiscard]] const RegistryBase* registry_of(const std::string& kind, const Catalog& catalog);
-[[nodiscard]] Fault unknown_kind(const std::string& kind, const Catalog& catalog);
-
 /// Adds --plugin, before and after every subcommand, and loads what it and GLOCAL_PLUGIN_PATH name before the
 /// subcommand runs. To be called after the subcommands have been added.
 void add_plugins(CLI::App& app, Context& context);

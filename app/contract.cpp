@@ -1,9 +1,6 @@
 // glocal contract: whether a strategy keeps what its kind promises.
 #include "glocal/contract.hpp"
 
-#include <fmt/format.h>
-
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,10 +8,7 @@
 #include "app/commands.hpp"
 #include "app/experiment_options.hpp"
 #include "app/standard_streams.hpp"
-#include "config/nearest.hpp"
-#include "config/overrides.hpp"
-#include "config/reader.hpp"
-#include "glocal/error.hpp"
+#include "config/strategy_names.hpp"
 
 namespace glocal::app {
 namespace {
@@ -24,20 +18,9 @@ struct ContractOptions {
   ExperimentOptions parameters;  ///< Of these: only --set.
 };
 
-StrategyChoice chosen_strategy(const ContractOptions& options, const Catalog& catalog) {
-  const RegistryBase* registry = registry_of(options.kind, catalog);
-  if (registry == nullptr) throw ConfigError({unknown_kind(options.kind, catalog)});
-  if (registry->find(options.name) == nullptr)
-    throw ConfigError("", fmt::format("there is no {} '{}'{}", options.kind, options.name,
-                                      suggestion(options.name, names_of(*registry), "there are")));
-  StrategyChoice choice = registry->choose(options.name);
-  const auto origin = std::make_shared<Origin>(Origin{options.name, std::filesystem::current_path()});
-  fill(*choice.params, make_node(NodeKind::null, {origin}), options.parameters.overrides());
-  return choice;
-}
-
 void try_out(const ContractOptions& options, Context& context) {
-  const StrategyChoice choice = chosen_strategy(options, context.catalog);
+  const StrategyChoice choice =
+      chosen_strategy(options.kind, options.name, options.parameters.overrides(), context.catalog);
   const std::vector<std::string> broken = broken_promises(options.kind, choice, context.catalog);
   for (const std::string& sentence : broken)
     say("{} {}: breaks its contract: {}\n", options.kind, options.name, sentence);

@@ -12,24 +12,11 @@
 #include "app/standard_streams.hpp"
 #include "config/builtin_parts.hpp"
 #include "config/help.hpp"
-#include "config/nearest.hpp"
+#include "config/strategy_names.hpp"
 #include "config/suites.hpp"
 #include "glocal/error.hpp"
 
 namespace glocal::app {
-
-const RegistryBase* registry_of(const std::string& kind, const Catalog& catalog) {
-  const auto all = catalog.registries();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const auto* r) { return r->kind() == kind; });
-  return found == all.end() ? nullptr : *found;
-}
-
-Fault unknown_kind(const std::string& kind, const Catalog& catalog) {
-  std::vector<std::string> kinds;
-  for (const RegistryBase* registry : catalog.registries()) kinds.push_back(registry->kind());
-  return {"", 0, 0, "unknown kind '" + kind + "'" + suggestion(kind, kinds, "there are")};
-}
-
 namespace {
 
 /// The registry of that kind, or all of them without one.

@@ -13,6 +13,7 @@
 #include "app/commands.hpp"
 #include "app/embedded_files.hpp"
 #include "app/standard_streams.hpp"
+#include "config/strategy_names.hpp"
 #include "evaluation/results/output_folder.hpp"
 #include "glocal/error.hpp"
 

@@ -29,14 +29,13 @@ from glocal._core import (
     StepResult,
     Verdict,
     Verification,
-    broken_promises,
     contact_index,
     describe,
     list_strategies,
     observation_from_ranges,
 )
 from glocal.errors import ConfigError, Fault, Interrupted, RunError, StrategyError
-from glocal.experiments import Experiment, Localizer, TrialProgress
+from glocal.experiments import Experiment, Localizer, TrialProgress, broken_promises
 from glocal.results import Comparison, Results, Summary, Sweep, Table, compare, load_results
 from glocal.strategies import (
     Clusterer,

@@ -228,4 +228,12 @@ class Localizer:
         return self._core.map
 
 
-__all__ = ["Experiment", "Localizer", "TrialProgress"]
+def broken_promises(kind: str, name: str, params: Mapping[str, Any] | None = None) -> list[str]:
+    """Has a strategy work in a small room, and returns what of its kind's contract it does not keep, a sentence each.
+
+    params: values of its parameters by paths; all others are defaults.
+    """
+    return _core.broken_promises(kind, name, _pairs(params or {}))
+
+
+__all__ = ["Experiment", "Localizer", "TrialProgress", "broken_promises"]

@@ -4,15 +4,15 @@
 #include <pybind11/stl.h>
 
 #include <cstdint>
-#include <stdexcept>
 #include <string>
 
 #include "config/help.hpp"
-#include "config/nearest.hpp"
+#include "config/strategy_names.hpp"
 #include "glocal/builtin.hpp"
 #include "glocal/contract.hpp"
 #include "glocal/error.hpp"
 #include "glocal/plugin.hpp"
+#include "python/src/conversions.hpp"
 #include "python/src/errors.hpp"
 #include "python/src/python_strategies.hpp"
 
@@ -29,15 +29,13 @@ void add_all(const py::object& strategies, Catalog& catalog) {
 }
 
 std::string listed(const std::string& kind, const Catalog& catalog) {
+  if (!kind.empty() && registry_of(kind, catalog) == nullptr)
+    throw ConfigError({unknown_kind(kind, catalog)});
   std::string text;
-  std::vector<std::string> kinds;
   for (const RegistryBase* registry : catalog.registries()) {
-    kinds.push_back(registry->kind());
     if (!kind.empty() && registry->kind() != kind) continue;
     text += fmt::format("{}{}\n{}", text.empty() ? "" : "\n", registry->kind(), list_strategies(*registry));
   }
-  if (text.empty())
-    throw py::value_error("unknown kind '" + kind + "'" + suggestion(kind, kinds, "there are"));
   return text;
 }
 
@@ -95,18 +93,13 @@ void bind_session(py::module_& module) {
       py::arg("name"), "What a strategy does, and its parameters with types, bounds and defaults.");
   module.def(
       "broken_promises",
-      [](const std::string& kind, const std::string& name) {
+      [](const std::string& kind, const std::string& name, const py::list& overrides) {
         const auto session = current_session();
+        const StrategyChoice choice = chosen_strategy(kind, name, overrides_of(overrides), session->catalog);
         const py::gil_scoped_release others_may;
-        try {
-          return broken_promises(kind, {name}, session->catalog);
-        } catch (const std::out_of_range& error) {
-          throw py::value_error(error.what());
-        }
+        return broken_promises(kind, choice, session->catalog);
       },
-      py::arg("kind"), py::arg("name"),
-      "Has a strategy work in a small room, and returns what of its kind's contract it does not keep, a "
-      "sentence each.");
+      py::arg("kind"), py::arg("name"), py::arg("overrides"));
   // For the program, which has a catalog of its own: what it must have in common with this module, and what
   // loads plugins into it.
   module.attr("_build_tag") = build_tag();

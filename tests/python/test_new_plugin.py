@@ -54,3 +54,11 @@ def test_what_is_broken_is_said(program, tmp_path):
     assert [sentence.split(":")[0] for sentence in broken] == ["the same again"]
     with pytest.raises(ValueError, match="there is no clusterer 'nobody'"):
         glocal.broken_promises("clusterer", "nobody")
+    with pytest.raises(ValueError, match="unknown kind 'clusterers'"):
+        glocal.broken_promises("clusterers", "dbscan")
+
+
+def test_parameters_that_must_be_given_are_given_to_the_contract(room):
+    with pytest.raises(glocal.ConfigError, match="missing key 'world'"):
+        glocal.broken_promises("map_source", "simulation")
+    assert glocal.broken_promises("map_source", "simulation", {"world": room.parent / "world.yaml"}) == []

@@ -16,6 +16,7 @@
 
 #include "config/field_docs.hpp"
 #include "config/reader.hpp"
+#include "config/strategy_names.hpp"
 #include "config/writer.hpp"
 #include "config/yaml_parser.hpp"
 #include "contract/trial_room.hpp"
@@ -517,12 +518,10 @@ void try_others(const std::string& kind, const StrategyChoice& choice, const Mot
 
 std::vector<std::string> broken_promises(const std::string& kind, const StrategyChoice& choice,
                                          const Catalog& catalog) {
-  const auto registries = catalog.registries();
-  const auto found = std::find_if(registries.begin(), registries.end(),
-                                  [&](const RegistryBase* registry) { return registry->kind() == kind; });
-  const StrategyInfo* info = found == registries.end() ? nullptr : (*found)->find(choice.name);
+  const RegistryBase* registry = registry_of(kind, catalog);
+  const StrategyInfo* info = registry == nullptr ? nullptr : registry->find(choice.name);
   if (info == nullptr) throw std::out_of_range(fmt::format("there is no {} '{}'", kind, choice.name));
-  const StrategyChoice chosen = choice.params ? choice : (*found)->choose(choice.name);
+  const StrategyChoice chosen = choice.params ? choice : registry->choose(choice.name);
 
   Findings findings;
   try_params(*chosen.params, findings);
