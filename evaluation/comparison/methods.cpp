@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <map>
 #include <set>
-#include <tuple>
 
 #include "evaluation/comparison/named_runs.hpp"
 #include "evaluation/comparison/run_part.hpp"
@@ -158,7 +157,7 @@ void sort_by_place(PairedTrials& paired) {
 std::vector<Method> methods_of(const std::vector<NamedRun>& runs) {
   std::vector<Method> methods;
   std::map<std::pair<fs::path, std::string>, std::size_t> numbers;
-  std::map<std::tuple<std::size_t, std::string, std::uint64_t>, std::string> seen;
+  PooledParts pooled;
   FaultCollector faults;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     faults.collect([&] {
@@ -167,15 +166,10 @@ std::vector<Method> methods_of(const std::vector<NamedRun>& runs) {
         methods.push_back({runs[i].name, {{"", runs[i].results.seed, i}}});
         return;
       }
-      const auto [number, is_new] =
-          numbers.try_emplace({folder_of_experiment(runs[i]), part->setting}, methods.size());
+      const fs::path folder = folder_of_experiment(runs[i]);
+      pooled.add(folder, *part, runs[i]);
+      const auto [number, is_new] = numbers.try_emplace({folder, part->setting}, methods.size());
       if (is_new) methods.push_back({part->setting.empty() ? runs[i].results.experiment : part->setting, {}});
-      const auto [other, is_first] =
-          seen.try_emplace({number->second, part->case_name, part->seed}, runs[i].name);
-      if (!is_first)
-        refuse_provenance(
-            runs[i],
-            fmt::format("is of the same setting, case and seed as {}; leave one of them out", other->second));
       methods[number->second].runs.push_back({part->case_name, part->seed, i});
     });
   }

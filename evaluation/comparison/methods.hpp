@@ -24,7 +24,7 @@ struct Method {
 };
 
 /// Methods in the order of their first runs. Those of one name, in different folders, go by these. Throws
-/// ConfigError for two runs of the same method, case and seed.
+/// ConfigError where PooledParts does.
 [[nodiscard]] std::vector<Method> methods_of(const std::vector<NamedRun>& runs);
 
 /// The trials that all methods have, paired within case and seed by their start. Where no method has two

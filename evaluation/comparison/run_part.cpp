@@ -32,6 +32,18 @@ RunPart read_part(const Json& json) {
   return part;
 }
 
+/// A path below the localizer at which two runs have other values, if there is one.
+std::optional<std::string> difference_of_methods(const StoredRun& a, const StoredRun& b) {
+  for (const auto& [one, other] : {std::pair(&a.settings, &b.settings), {&b.settings, &a.settings}}) {
+    for (const auto& [path, setting] : *one) {
+      if (!path.starts_with("localizer.")) continue;
+      const auto found = other->find(path);
+      if (found == other->end() || found->second.identity != setting.identity) return path;
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 void refuse_provenance(const NamedRun& run, const std::string& what) {
@@ -49,6 +61,19 @@ std::optional<RunPart> part_of(const NamedRun& run) {
         run, fmt::format("is not as glocal run leaves it ({}); run the experiment again with this version",
                          reason(error)));
   }
+}
+
+void PooledParts::add(const std::filesystem::path& folder, const RunPart& part, const NamedRun& run) {
+  const SettingId setting(folder, part.setting);
+  const auto [other, is_new] = runs_.try_emplace({setting, part.case_name, part.seed}, &run);
+  if (!is_new)
+    refuse_provenance(run, fmt::format("is of the same setting, case and seed as {}; leave one of them out",
+                                       other->second->name));
+  const NamedRun& first = *first_of_.try_emplace(setting, &run).first->second;
+  if (const auto path = difference_of_methods(first.results, run.results))
+    refuse_provenance(run, fmt::format("has another {} than {}, and both are of the setting '{}'; leave one "
+                                       "of them out",
+                                       *path, first.name, part.setting));
 }
 
 }  // namespace glocal

@@ -80,6 +80,9 @@ class RunReader {
                                     "({} and {}); run all with one",
                                     run_.provenance.value("revision", ""),
                                     entry->provenance.at("revision").get<std::string>()));
+    } else if (entry->provenance.at("method_sha256") != hash_of_method(run_.settings)) {
+      throw ConfigError(
+          run_.folder, "has other values of the localizer than the results beside it; run all with the same");
     }
     // All processors that times are of are named.
     auto& cpu = entry->provenance.at("cpu").get_ref<std::string&>();

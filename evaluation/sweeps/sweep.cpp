@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdint>
-#include <tuple>
 #include <utility>
 
 #include "evaluation/results/fault_collector.hpp"
@@ -33,17 +31,6 @@ SweepRun sweep_run_of(const std::vector<NamedRun>& runs, std::size_t index) {
           .trials = &run.results.trials};
 }
 
-/// A path below the localizer at which two runs have other values, if there is one.
-std::optional<std::string> difference_of_methods(const std::map<std::string, Setting>& a,
-                                                 const std::map<std::string, Setting>& b) {
-  for (const auto& [path, setting] : a) {
-    if (!path.starts_with("localizer.")) continue;
-    const auto other = b.find(path);
-    if (other == b.end() || other->second != setting) return path;
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
 bool is_sweep(const std::vector<NamedRun>& runs) {
@@ -57,25 +44,12 @@ bool is_sweep(const std::vector<NamedRun>& runs) {
 
 std::vector<SweepRun> sweep_of(const std::vector<NamedRun>& runs) {
   std::vector<SweepRun> parts;
-  std::map<std::tuple<std::string, std::string, std::uint64_t>, std::string> seen;
-  std::map<std::pair<std::string, std::string>, std::size_t> first_of;  // By setting and case.
+  PooledParts pooled;
   FaultCollector faults;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     faults.collect([&] {
       parts.push_back(sweep_run_of(runs, i));
-      const RunPart& part = parts.back().part;
-      const auto [other, is_new] =
-          seen.try_emplace({part.setting, part.case_name, part.seed}, parts.back().name);
-      if (!is_new)
-        refuse_provenance(
-            runs[i],
-            fmt::format("is of the same setting, case and seed as {}; leave one of them out", other->second));
-      const NamedRun& first = runs[first_of.try_emplace({part.setting, part.case_name}, i).first->second];
-      if (const auto path = difference_of_methods(first.results.settings, runs[i].results.settings))
-        refuse_provenance(runs[i],
-                          fmt::format("has another {} than {}, and both are of the setting '{}'; leave "
-                                      "one of them out",
-                                      *path, first.name, part.setting));
+      pooled.add({}, parts.back().part, runs[i]);
     });
   }
   faults.report();

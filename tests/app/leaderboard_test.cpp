@@ -130,6 +130,23 @@ TEST_F(Leaderboard, TheNameOfAMethodStandsForItsValues) {
   EXPECT_THAT(good(run("leaderboard add " + file("wider"))).out, HasSubstr("wider on tiny@1: "));
 }
 
+TEST_F(Leaderboard, AnEntryIsOfOneLocalizer) {
+  pin();
+  const auto run_seed = [&](const char* seed, const char* epsilon) {
+    folder_.write("mine.yaml", fmt::format("localizer: {{contact_epsilon: {}, matcher: {{ransam: "
+                                           "{{iterations: 2000}}}}}}\n",
+                                           epsilon));
+    good(run("run --quiet --suite tiny@1 --method " + file("mine.yaml") + " --only mine_small_room_seed-" +
+             seed + " --out " + file("results")));
+  };
+  run_seed("1", "0.05");
+  run_seed("2", "0.06");
+  EXPECT_THAT(refusal(run("leaderboard add " + file("results"))),
+              HasSubstr("results/mine_small_room_seed-2: error: has other values of the localizer than the "
+                        "results beside it; run all with the same"));
+  EXPECT_FALSE(std::filesystem::exists(file("leaderboard")));
+}
+
 TEST_F(Leaderboard, ACheckSaysWhichStartsEndOtherwise) {
   pin();
   run_and_add();

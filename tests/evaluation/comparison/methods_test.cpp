@@ -54,6 +54,25 @@ TEST(Methods, HaveARunForEachCaseAndSeed) {
                         "a_near_seed-1; leave one of them out"));
 }
 
+TEST(Methods, HaveOneLocalizer) {
+  std::vector<NamedRun> runs = {sweep_run({.setting = "a", .case_name = "near", .seed = 2}, "r"),
+                                sweep_run({.setting = "a", .case_name = "near", .seed = 1}, "r"),
+                                sweep_run({.setting = "a", .case_name = "far", .seed = 1}, "r")};
+  const auto set = [&](std::size_t run, const char* path, const char* value) {
+    runs[run].results.settings[path] = {value, value};
+  };
+  set(2, "observations.carmen_log.path", "other.log");
+  EXPECT_EQ(methods_of(runs).size(), 1U);
+  for (const std::size_t other : {0U, 1U}) {
+    set(other, "localizer.contact_epsilon", "0.1");
+    EXPECT_THAT(error_of([&] { return methods_of(runs); }),
+                HasSubstr("has another localizer.contact_epsilon than a_near_seed-2, and both are of the "
+                          "setting 'a'; leave one of them out"));
+  }
+  set(2, "localizer.contact_epsilon", "0.1");
+  EXPECT_EQ(methods_of(runs).size(), 1U);
+}
+
 TEST(Methods, AreBaselinesByTheirNames) {
   const std::vector<NamedRun> runs = {sweep_run({.setting = "a", .seed = 1}, "r"),
                                       sweep_run({.setting = "b", .seed = 1}, "r"),
