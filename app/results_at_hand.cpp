@@ -25,7 +25,8 @@ bool is_merged(const Manifest& manifest, const fs::path& shared) {
 
 }  // namespace
 
-ResultsAtHand::ResultsAtHand(const std::vector<std::string>& folders) {
+// The object is made by then, so that it is destroyed where something is thrown.
+ResultsAtHand::ResultsAtHand(const std::vector<std::string>& folders) : ResultsAtHand() {
   for (const std::string& folder : folders) {
     const bool is_open = is_shared_folder(folder) && !is_merged(read_manifest(folder), folder);
     folders_.push_back(is_open ? put_together(folder).string() : folder);

@@ -26,6 +26,7 @@ class ResultsAtHand {
       const std::function<StoredRun(const std::filesystem::path&)>& read_one) const;
 
  private:
+  ResultsAtHand() = default;
   [[nodiscard]] std::filesystem::path put_together(const std::filesystem::path& shared);
 
   std::vector<std::string> folders_;                                 ///< To read.

@@ -323,6 +323,18 @@ TEST_F(Shards, AReportShowsWhatIsThereSoFar) {
   EXPECT_EQ(run("report " + file("shared") + " -o " + file("all.html")).err, "");
 }
 
+TEST_F(Shards, WhatCannotBeShownLeavesNothingBehind) {
+  good(run_shard("1/2"));
+  fs::create_directory(file("tmp"));
+  fs::copy(file("shared"), file("begun"), fs::copy_options::recursive);
+  fs::remove_all(file("begun/.shards/journals"));
+  ::setenv("TMPDIR", file("tmp").c_str(), 1);
+  const Answer report = run("report " + file("shared") + " " + file("begun") + " -o " + file("both.html"));
+  ::unsetenv("TMPDIR");
+  EXPECT_THAT(refusal(report), HasSubstr("begun: error: no trial has come to an end yet"));
+  EXPECT_TRUE(fs::is_empty(file("tmp")));
+}
+
 TEST_F(Shards, WatchedStatusEndsWhenAllIsDone) {
   good(run_shard("1/1"));
   const Answer answer = good(run("status " + file("shared") + " --watch"));
