@@ -253,7 +253,7 @@ std::optional<std::string> why_times_differ(const NamedRun& run, const NamedRun&
 
 std::vector<std::string> comparability_warnings(const std::vector<NamedRun>& runs,
                                                 const std::vector<Method>& methods, std::size_t baseline,
-                                                const PairedTrials& paired) {
+                                                const PairedTrials& paired, bool with_times) {
   const Compared compared{runs, methods, paired};
   Sentences warnings;
   add_missing_trials(compared, warnings);
@@ -262,7 +262,7 @@ std::vector<std::string> comparability_warnings(const std::vector<NamedRun>& run
     if (m == baseline) continue;
     add_settings(compared, m, baseline, warnings);
     add_references(compared, m, baseline, warnings);
-    add_times(compared, m, baseline, warnings);
+    if (with_times) add_times(compared, m, baseline, warnings);
   }
   add_overlaps(compared, warnings);
   add_few_places(paired.places.size(), warnings);

@@ -14,11 +14,11 @@ namespace glocal {
 [[nodiscard]] std::optional<std::string> why_times_differ(const NamedRun& run, const NamedRun& baseline);
 
 /// What stands against comparing methods, a sentence each: cases, seeds and starts left out, interrupted
-/// runs, other limits, maps, observations or seeds, times of another machine, trials that overlap, few
-/// places.
+/// runs, other limits, maps, observations or seeds, times of another machine (`with_times`), trials that
+/// overlap, few places.
 [[nodiscard]] std::vector<std::string> comparability_warnings(const std::vector<NamedRun>& runs,
                                                               const std::vector<Method>& methods,
                                                               std::size_t baseline,
-                                                              const PairedTrials& paired);
+                                                              const PairedTrials& paired, bool with_times);
 
 }  // namespace glocal

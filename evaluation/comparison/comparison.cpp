@@ -309,6 +309,10 @@ std::span<const Measure> measures_but_time() {
   return measures().first(measures().size() - 1);
 }
 
+bool has_time(std::span<const Measure> measured) {
+  return measured.size() > measures_but_time().size();
+}
+
 Comparison compare(const std::vector<NamedRun>& runs, std::size_t baseline_run,
                    std::span<const Measure> measured) {
   const std::vector<Method> methods = methods_of(runs);
@@ -324,7 +328,7 @@ Comparison compare(const std::vector<NamedRun>& runs, std::size_t baseline_run,
   Comparison comparison = counted_trials(paired, cases);
   comparison.baseline = methods[baseline].name;
   comparison.measured = measured;
-  comparison.warnings = comparability_warnings(runs, methods, baseline, paired);
+  comparison.warnings = comparability_warnings(runs, methods, baseline, paired, has_time(measured));
   for (std::size_t m = 0; m < methods.size(); ++m) {
     comparison.methods.push_back(method_figures(runs, methods[m], m, paired, measured));
     const std::vector<bool> has_times = cells_with_times(runs, paired, m, baseline);

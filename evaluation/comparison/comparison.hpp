@@ -37,6 +37,8 @@ struct Measure {
 [[nodiscard]] std::span<const Measure> measures();
 /// Those that are the same for runs with the same seed.
 [[nodiscard]] std::span<const Measure> measures_but_time();
+/// Whether times are among these.
+[[nodiscard]] bool has_time(std::span<const Measure> measured);
 
 /// Differences of right and of wrong trials that matter, in percentage points.
 inline constexpr double smallest_right_points = 2.0;

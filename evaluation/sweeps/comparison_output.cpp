@@ -16,8 +16,7 @@ ComparisonOutput comparison_output(const std::vector<NamedRun>& runs, std::size_
   const Comparison comparison = compare(runs, baseline, measured);
   ComparisonOutput output{first_screen(comparison), {}, to_json(comparison), to_csv(comparison)};
   Report parameters;
-  const bool with_times = measured.size() > measures_but_time().size();
-  if (const auto figures = compare_parameters(runs, with_times)) {
+  if (const auto figures = compare_parameters(runs, has_time(measured))) {
     parameters = parameter_report(*figures);
     output.json["parameters"] = to_json(*figures);
   }

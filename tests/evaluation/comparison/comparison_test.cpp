@@ -287,6 +287,7 @@ TEST(Comparison, TestsNoTimesThatTellOfTheMachine) {
   EXPECT_FALSE(comparison.methods[1].medians.at(4)) << "nor tells them side by side";
   EXPECT_THAT(comparison.warnings, Contains(HasSubstr("--jobs 2, and --jobs 1")));
   EXPECT_THAT(comparison.pairs.front().warnings, IsEmpty());
+  EXPECT_THAT(compare(runs, 0, measures_but_time()).warnings, IsEmpty()) << "nor is it asked for";
 }
 
 TEST(Comparison, AMedianOfTimesIsOneOfAllRuns) {
