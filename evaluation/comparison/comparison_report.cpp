@@ -31,8 +31,9 @@ std::string p_holm(const TestResult& test) {
 std::string with_unit(const Measure& measure) {
   return *measure.unit == '\0' ? measure.label : fmt::format("{}, {}", measure.label, measure.unit);
 }
-const char* star(const TestResult& test, bool matters) {
-  return test.is_significant() && matters ? "*" : "";
+template <class TestedDifference>
+const char* star(const TestedDifference& d) {
+  return d.test.is_significant() && d.matters() ? "*" : "";
 }
 /// "83.3 (61-94)": in per cent.
 std::string share(const Proportion& proportion) {
@@ -86,7 +87,7 @@ Table outcomes_table(const PairComparison& pair, const std::string& baseline) {
     table.rows.push_back({d.name, std::to_string(d.counts.only_baseline),
                           std::to_string(d.counts.only_variant), std::to_string(d.places),
                           std::to_string(d.places_more), std::to_string(d.places_less), points(d.points),
-                          p_value(d.test.p), p_holm(d.test), star(d.test, true)});
+                          p_value(d.test.p), p_holm(d.test), star(d)});
   }
   return table;
 }
@@ -96,11 +97,10 @@ Table measures_table(const PairComparison& pair) {
                "p (Holm)", "", "test"},
               {}};
   for (const MeasureDifference& d : pair.measures) {
-    table.rows.push_back({with_unit(d.measure), std::to_string(d.trials), signed_number(d.mean.value),
-                          range(d.mean.interval), signed_number(d.median),
-                          std::to_string(d.trials_that_differ), signed_number(d.mean_of_those),
-                          number(d.smallest), p_value(d.test.p), p_holm(d.test), star(d.test, d.matters()),
-                          d.ranks.exact ? "exact" : "normal"});
+    table.rows.push_back(
+        {with_unit(d.measure), std::to_string(d.trials), signed_number(d.mean.value), range(d.mean.interval),
+         signed_number(d.median), std::to_string(d.trials_that_differ), signed_number(d.mean_of_those),
+         number(d.smallest), p_value(d.test.p), p_holm(d.test), star(d), d.ranks.exact ? "exact" : "normal"});
   }
   return table;
 }

@@ -98,6 +98,21 @@ TEST(ComparisonReport, IsTheSameAsTextAndAsMarkdown) {
   EXPECT_THAT(markdown, HasSubstr("| qu\\|ck\\_2 | 30 |"));
 }
 
+TEST(ComparisonReport, MarksOnlyWhatMatters) {
+  const auto stars = [](std::size_t wrong) {
+    std::vector<TrialResult> first(1000, right_after(10.0));
+    std::vector<TrialResult> second = first;
+    for (std::size_t i = 0; i < wrong; ++i) second[i].outcome = Outcome::wrong;
+    const std::string text =
+        as_text(comparison_report(compare({run_of("a", first), run_of("b", second)}, 0)));
+    return std::count(text.begin(), text.end(), '*');
+  };
+  // Besides the sentence that says so: wrong from 1 point on, right from 2. All three are sure.
+  EXPECT_EQ(stars(9), 1);
+  EXPECT_EQ(stars(11), 2);
+  EXPECT_EQ(stars(21), 3);
+}
+
 TEST(ComparisonReport, KeepsToTheWidthOfATerminal) {
   std::istringstream lines(as_text(comparison_report(compare(slow_and_quick(), 0))));
   for (std::string line; std::getline(lines, line);) {
