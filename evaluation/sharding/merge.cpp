@@ -12,6 +12,7 @@
 
 #include "evaluation/results/fault_collector.hpp"
 #include "evaluation/results/file_io.hpp"
+#include "evaluation/results/file_lock.hpp"
 #include "evaluation/results/json_text.hpp"
 #include "evaluation/results/output_folder.hpp"
 #include "evaluation/results/results_folder.hpp"
@@ -108,6 +109,14 @@ Json VariantMerge::write(bool is_complete) const {
   // place.
   const bool is_beside = planned_.name.empty() && is_shared_folder(folder_);
   const fs::path place = is_beside ? folder_ / shards_folder / "merged" : folder_;
+  std::optional<FileLock> lock;
+  if (is_beside) {
+    lock.emplace(folder_ / shards_folder / "merge.lock", folder_);
+    // What a merge that was killed has not moved up any more.
+    std::error_code error;
+    fs::remove_all(place, error);
+    check_written(error, place);
+  }
   const Json described = description();
   std::set<fs::path> inputs;
   for (const auto& [file, hash] : described.at("provenance").at("inputs_sha256").items()) inputs.insert(file);

@@ -282,6 +282,21 @@ TEST_F(Shards, ResultsOfAnotherRunAreNotReplaced) {
   EXPECT_EQ(run_room("plain", "--shard 1/1").exit_code, 2) << "results of a run without shards are there";
 }
 
+TEST_F(Shards, AMergeThatWasKilledIsDoneAgain) {
+  write_experiment("trials: {every_scan: 6, max_steps: 5}\n");
+  good(run_shard("1/1"));
+  good(merge());
+  const std::string trials = content(file("shared/trials.jsonl"));
+  // As if it had not come to the last two files.
+  fs::create_directory(file("shared/.shards/merged"));
+  for (const std::string name : {"summary.json", "trials.jsonl"})
+    fs::rename(file("shared/" + name), file("shared/.shards/merged/" + name));
+  good(merge());
+  EXPECT_EQ(content(file("shared/trials.jsonl")), trials);
+  EXPECT_TRUE(fs::exists(file("shared/summary.json")));
+  EXPECT_FALSE(fs::exists(file("shared/.shards/merged")));
+}
+
 TEST_F(Shards, AFolderWithoutShardsIsRefused) {
   for (const char* command : {"status ", "merge "}) {
     EXPECT_THAT(refusal(run(command + file("nowhere"))), HasSubstr("no shards have run here"));
