@@ -122,10 +122,9 @@ void measure_times_anew(std::vector<NamedRun>& runs, bool trust_plugins, Context
     // Who comes first finds other caches: each in turn.
     reruns.splice(reruns.end(), reruns, reruns.begin());
   }
-  for (NamedRun& run : runs) {
-    const int threads = run.results.machine.threads;
-    run.results.machine = {};
-    run.results.machine.threads = threads;
+  for (const Rerun& rerun : reruns) {
+    rerun.of.results.machine = {};
+    rerun.of.results.machine.threads = rerun.experiment.threads;
   }
 }
 

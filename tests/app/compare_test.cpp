@@ -137,6 +137,10 @@ TEST_F(CompareCommand, TakesTimesAnewAndInTurn) {
   const std::string both = file("a") + " " + file("b") + " -o " + file("c.json");
   EXPECT_THAT(run("compare " + both).out,
               HasSubstr("Times of b and a are not compared: --jobs 1, and --jobs 2."));
+  // As of shards with several numbers of threads; what is run anew has that of the experiment.
+  json provenance = json::parse(content(file("b/provenance.json")));
+  provenance["threads"] = 0;
+  folder_.write("b/provenance.json", provenance.dump());
   const Answer answer = good(run("compare --time --force " + both));
   EXPECT_THAT(answer.out, Not(HasSubstr("are not compared")));
   const json measures = json::parse(content(file("c.json")))["pairs"][0]["measures"];
