@@ -1,7 +1,9 @@
 // glocal leaderboard: what methods have come to on suites, kept as data.
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <ctime>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -301,6 +303,7 @@ void import(const BoardOptions& options, Context& context) {
                    1.0,
                    {{"version", version},
                     {"revision", revision()},
+                    {"date", fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr)))},
                     {"imported_sha256", sha256_of_file(options.poses)},
                     {"suite_sha256", sha256_of_file(suite.file)}},
                    {}};

@@ -313,6 +313,9 @@ TEST_F(Leaderboard, ImportedPosesAreJudgedLikeOnesOwn) {
   Json ours = entry().at("results");
   for (Json& result : ours) result.erase("ms");
   EXPECT_EQ(theirs, ours);
+  const Json renewal = json_lines(file("leaderboard/history.jsonl")).back();
+  EXPECT_EQ(renewal.at("method"), "theirs");
+  EXPECT_TRUE(std::regex_match(renewal.at("date").get<std::string>(), std::regex("\\d{4}-\\d\\d-\\d\\d")));
 }
 
 TEST_F(Leaderboard, WhatIsWrongWithImportedRowsIsSaidOfEach) {
