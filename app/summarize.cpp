@@ -109,6 +109,9 @@ std::string markdown_head() {
 std::string markdown_row(const Json& row) {
   const Json& trials = row.at("trials");
   const bool any_right = trials.at("right") != 0;
+  const bool is_judged =
+      any_right || trials.at("wrong") != 0 || !trials.contains("declared_without_reference");
+  const std::string wrong = is_judged ? per_cent(row.at("false_rate")) : "–";
   const std::string way = any_right ? fmt::format("{:g}, {:.1f} m", median(row, "steps_to_localize"),
                                                   median(row, "distance_to_localize_m"))
                                     : "–";
@@ -119,8 +122,8 @@ std::string markdown_row(const Json& row) {
   const std::string step = row.contains("step_ms") ? fmt::format("{:.1f} ms", median(row, "step_ms")) : "–";
   return fmt::format("| {}{} | {} | {} | {} | {} | {} | {} | {} | {} |\n", row.at("name").get<std::string>(),
                      row.at("complete") ? "" : " (interrupted)", trials.at("count").dump(),
-                     trials.at("right").dump(), trials.at("wrong").dump(), undecided_cell(trials),
-                     per_cent(row.at("false_rate")), way, error, step);
+                     trials.at("right").dump(), trials.at("wrong").dump(), undecided_cell(trials), wrong, way,
+                     error, step);
 }
 
 void summarize(const SummarizeOptions& options) {

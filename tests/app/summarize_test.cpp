@@ -121,6 +121,10 @@ TEST_F(SummarizeCommand, LeavesOutWhatIsNotKnown) {
   const Json row = summary(file("none"))[0];
   EXPECT_FALSE(row.contains("step_ms"));
   EXPECT_TRUE(row.contains("success_rate"));
+  // Without any reference none is wrong, whatever was declared.
+  replace_lines(file("none"), {{{"outcome", "declared"}}, {{"outcome", "undecided"}}}, {});
+  EXPECT_EQ(run("summarize --no-head " + file("none")).out,
+            "| none | 2 | 0 | 0 | 1, 1 not judged | – | – | – | – |\n");
 }
 
 TEST_F(SummarizeCommand, RefusesWhatItCannotName) {
