@@ -70,7 +70,7 @@ std::size_t count_resamples(std::size_t places) {
 }  // namespace
 
 Interval interval_of_shares(const std::vector<PlaceOutcomes>& places) {
-  double first = 0.0, second = 0.0, trials = 0.0, filled = 0.0;
+  double first = 0.0, second = 0.0, trials = 0.0, filled = 0.0, most = 0.0;
   std::vector<StratumSums> strata;
   for (const PlaceOutcomes& place : places) {
     const auto a = static_cast<double>(place.only_first);
@@ -80,14 +80,14 @@ Interval interval_of_shares(const std::vector<PlaceOutcomes>& places) {
     second += b;
     trials += n;
     filled += n > 0.0 ? 1.0 : 0.0;
+    most = std::max(most, n);
     if (place.stratum >= strata.size()) strata.resize(place.stratum + 1);
     strata[place.stratum].add(b - a, n);
   }
   if (trials == 0.0) return {-1.0, 1.0};
   const double mean = (second - first) / trials;
   const double if_independent = first + second - trials * mean * mean;
-  const double most = trials / filled;
-  double alike = most;  // Trials that tell as much as one.
+  double alike = trials / filled;  // Trials that tell as much as one.
   if (if_independent > 0.0) {
     double variance = 0.0;
     for (const StratumSums& s : strata) variance += s.variance(mean);

@@ -54,6 +54,16 @@ TEST(IntervalOfShares, SeedsThatAllEndAlikeTellNoMoreThanOne) {
   EXPECT_NEAR(interval_of_shares(thrice).high, one.high, 0.003);
 }
 
+TEST(IntervalOfShares, PlacesOfManyTrialsTellNoMoreThanThoseOfOne) {
+  // 6 of 40 places of four trials differ, of 80 of a single one none. The mean is 0.1, and the variance of
+  // the sum (6 * 3.6^2 + 34 * 0.4^2 - 8^2 / 40) * 40 / 39; each pair by itself would make it 21.6.
+  std::vector<PlaceOutcomes> places(6, {0, 4, 0, 4});
+  places.resize(40, {0, 4, 0, 0});
+  places.resize(120, {1, 1, 0, 0});
+  const Interval interval = interval_of_shares(places);
+  EXPECT_GT(interval.high - interval.low, 2.0 * z * std::sqrt(81.6 * 40.0 / 39.0) / 240.0);
+}
+
 TEST(IntervalOfShares, CasesThatDifferAreNoChance) {
   // In one case all are better, in the other one none: another sample has the same of each.
   std::vector<PlaceOutcomes> places(20, {0, 2, 0, 2});
