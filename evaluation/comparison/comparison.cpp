@@ -194,10 +194,8 @@ PairComparison compare_pair(const std::string& name, std::span<const Measure> me
   result.variant = name;
   result.measured = measured;
   result.outcomes = {
-      compare_outcome({.name = "wrong", .more_is_better = false, .smallest = smallest_wrong_points}, is_wrong,
-                      pair),
-      compare_outcome({.name = "right", .more_is_better = true, .smallest = smallest_right_points}, is_right,
-                      pair)};
+      compare_outcome({.name = "wrong", .more_is_better = false, .smallest = 1.0}, is_wrong, pair),
+      compare_outcome({.name = "right", .more_is_better = true, .smallest = 2.0}, is_right, pair)};
   for (std::size_t i = 0; i < measured.size(); ++i) {
     const MeasureDifference difference = compare_measure(measured[i], i, pair);
     if (difference.places > 1) result.measures.push_back(difference);

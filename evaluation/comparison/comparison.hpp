@@ -40,10 +40,6 @@ struct Measure {
 /// Whether times are among these.
 [[nodiscard]] bool has_time(std::span<const Measure> measured);
 
-/// Differences of right and of wrong trials that matter, in percentage points.
-inline constexpr double smallest_right_points = 2.0;
-inline constexpr double smallest_wrong_points = 1.0;
-
 /// Differences of values this near are rounding, as a share of the values.
 inline constexpr double rounding = 1e-9;
 
