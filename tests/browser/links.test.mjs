@@ -112,6 +112,20 @@ test("addresses of nothing, and of parts of the page, do no harm", { skip }, asy
   assert.equal((await shown(page)).run, best);
 });
 
+test("a link leads to a place on another run's map, whose steps are loaded only then", { skip }, async () => {
+  const folders = ["paper_lab", "paper_simulation"].map((name) => runExperiment(name, join(work, name)));
+  const both = report(join(work, "both.html"), ...folders);
+  const first = await open(both);
+  const run = await first.page.locator("#run option").last().innerText();
+  await first.page.close();
+  const other = await open(`${both}#run=${run}&x=1.25&y=-0.5&zoom=50`);
+  assert.equal((await shown(other.page)).run, run);
+  const { x, y, scale } = await mapView(other.page);
+  assert.deepEqual([x, y, scale], [1.25, -0.5, 50]);
+  for (const each of [first, other]) assertQuiet(each);
+  await other.page.close();
+});
+
 test("every column of a table tells what it is", { skip }, () => assertTablesExplained(page, 40));
 
 test("tables are saved as CSV", { skip }, async () => {

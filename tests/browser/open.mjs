@@ -43,6 +43,7 @@ export async function open(address, options = {}) {
   await page.waitForSelector("body[data-step], body[data-shown]");
   // Without steps and maps there is nothing to draw.
   if ((await page.locator("#view").count()) > 0) await page.waitForSelector("canvas[data-scale]");
+  await drawn(page);
   return { page, noted, url: page.url().replace(/#.*/, "") };
 }
 

@@ -19,14 +19,14 @@ export class PageState {
     // Of a run that goes on, the page shows the newest step.
     if (store.report.live) return;
     this.known = this.address();
-    this.read();
-    window.addEventListener("hashchange", () => this.read());
+    void this.read();
+    window.addEventListener("hashchange", () => void this.read());
     store.subscribe(() => this.writeSoon());
     page.addEventListener("viewchange", () => this.writeSoon());
   }
 
   /** What is not said is as on a page that was just opened. An address of a part of the page says nothing. */
-  private read(): void {
+  private async read(): Promise<void> {
     this.hash = location.hash;
     const hash = this.hash.slice(1);
     if (!hash.includes("=")) return;
@@ -36,7 +36,9 @@ export class PageState {
     const number = said.get("trial");
     const trial = Math.max(0, runs[run].trials.findIndex(({ trial: its }) => String(its) === number));
     const step = said.get("step");
-    this.store.show({ run, trial, step: step === null ? undefined : Number(step), hypothesis: hypothesisOf(said.get("pose")) });
+    const wanted = { run, trial, step: step === null ? undefined : Number(step), hypothesis: hypothesisOf(said.get("pose")) };
+    // Places are of the map of that run, which comes with its trial.
+    if (!(await this.store.show(wanted))) return;
     for (const part of this.parts) part.setState(said);
     this.known = this.address();
   }

@@ -98,11 +98,14 @@ export class Store {
     this.tell({ ...nothing, shown: true });
   }
 
-  show(wanted: Wanted): void {
+  /** False if something else was wanted before the steps were loaded. */
+  async show(wanted: Wanted): Promise<boolean> {
     this.wanted = wanted;
     const trial = this.current.runs[wanted.run].trials[wanted.trial];
-    if (trial?.chunk === undefined) this.select(wanted);
-    else void this.load([trial]).then(() => wanted === this.wanted && this.select(wanted));
+    if (trial?.chunk !== undefined) await this.load([trial]);
+    if (wanted !== this.wanted) return false;
+    this.select(wanted);
+    return true;
   }
 
   /** Has the steps of these trials loaded; tells of those that cannot be. */
@@ -121,11 +124,11 @@ export class Store {
   /** Shows another run: the trial with the same start, and the same step, where it has them. */
   chooseRun(run: number): void {
     const trial = matchingTrial(this.trial, this.current.runs[run]);
-    this.show({ ...this.wanted, run, trial: Math.max(0, trial), step: trial < 0 ? undefined : this.selection.step });
+    void this.show({ ...this.wanted, run, trial: Math.max(0, trial), step: trial < 0 ? undefined : this.selection.step });
   }
 
   chooseTrial(trial: number): void {
-    if (this.current.runs[this.wanted.run].trials[trial]) this.show({ ...this.wanted, trial, step: undefined, hypothesis: "estimate" });
+    if (this.current.runs[this.wanted.run].trials[trial]) void this.show({ ...this.wanted, trial, step: undefined, hypothesis: "estimate" });
   }
 
   /** The trial so many after the one that is shown, or will be. */
@@ -134,11 +137,11 @@ export class Store {
   }
 
   chooseStep(step: number): void {
-    if (!this.isLeaving) this.show({ ...this.selection, step });
+    if (!this.isLeaving) void this.show({ ...this.selection, step });
   }
 
   chooseHypothesis(hypothesis: Hypothesis): void {
-    if (!this.isLeaving) this.show({ ...this.selection, hypothesis });
+    if (!this.isLeaving) void this.show({ ...this.selection, hypothesis });
   }
 
   /** Takes newer data of a run that goes on; who looks at the last step stays at the last step. */
