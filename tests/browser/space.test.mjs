@@ -362,6 +362,19 @@ test("the headings of curves have room for their numbers", { skip }, async () =>
   assert.deepEqual(panels.filter(({ isClear }) => !isClear), []);
 });
 
+test("under a cluster that a step lacks nothing is laid, though the next step has more", { skip }, async () => {
+  const of = (trial) => stepsOf(folder, trial).map(({ best }) => best.length);
+  const trial = trialsOf(folder).findIndex(({ trial }) => of(trial).some((n, k, all) => n + 1 < all[k + 1]));
+  const step = of(trial).findIndex((n, k, all) => n + 1 < all[k + 1]);
+  await page.evaluate((hash) => (location.hash = hash), `trial=${trial}&step=${step}&pose=${of(trial)[step] + 1}`);
+  await page.waitForFunction(([trial, step]) => document.body.dataset.trial === trial && document.body.dataset.step === step, [trial, step].map(String));
+  await look("above");
+  await showOnly("local_map", "scan");
+  const { data } = await pixelsOf(page, canvas);
+  assert.ok(data.every((value, i) => i % 4 !== 3 || value === 0), "something is drawn");
+  assert.match(await page.locator(".space .note").innerText(), /no such pose/);
+});
+
 test("every column of a table tells what it is", { skip }, () => assertTablesExplained(page, 20));
 
 test("axe finds nothing serious", { skip }, () => assertAccessibleInBoth(page, "space"));

@@ -16,11 +16,6 @@ export function columnPose(columns: Columns, i: number): SpacePose | null {
   return poseOf([x, y, z, qx, qy, qz, qw].map((column) => column?.[i]));
 }
 
-/** Of the k-th of all listed clusters. */
-export function clusterPose(steps: Steps, k: number): SpacePose | null {
-  return columnPose(steps.best, k);
-}
-
 /** The k-th of a step. */
 export function candidatePose(steps: Steps, step: number, k: number): SpacePose | null {
   const [x, y] = steps.candidates[step].slice(3 * k);

@@ -12,7 +12,7 @@ import { Arrows } from "./space_arrows";
 import { Cameras, type CameraName } from "./space_cameras";
 import { Heights, rangeOf } from "./space_heights";
 import { placesOf, PointCloud, Way, type Coordinates } from "./space_points";
-import { candidatePose, clusterPose, columnPose, type SpacePose } from "./space_poses";
+import { candidatePose, columnPose, type SpacePose } from "./space_poses";
 import type { Store } from "./store";
 import { tellView } from "./view_change";
 import { zoomButtons } from "./zoom_buttons";
@@ -267,14 +267,15 @@ export class SpaceView {
     const { hypothesis } = this.store.selected;
     if (hypothesis === "reference") return columnPose(steps.reference, step);
     if (hypothesis === "estimate") return columnPose(steps.estimate, step);
-    return clusterPose(steps, steps.best.first[step] + hypothesis);
+    const k = steps.best.first[step] + hypothesis;
+    return k < steps.best.first[step + 1] ? columnPose(steps.best, k) : null;
   }
 
   private showPoses(steps: Steps, step: number): void {
     const { hypothesis } = this.store.selected;
     const { first, r } = steps.best;
     for (let k = first[step + 1] - 1; k >= first[step]; --k) {
-      const pose = clusterPose(steps, k);
+      const pose = columnPose(steps.best, k);
       const isChosen = k - first[step] === hypothesis;
       if (!pose) continue;
       // The best on top.
@@ -383,7 +384,7 @@ export class SpaceView {
     let nearest: number | null = null;
     let least = reach;
     for (let k = steps.best.first[step]; k < steps.best.first[step + 1]; ++k) {
-      const pose = clusterPose(steps, k);
+      const pose = columnPose(steps.best, k);
       if (!pose) continue;
       const at = this.placed(pose).project(this.cameras.camera);
       const distance = Math.hypot(((at.x + 1) / 2) * this.size.width - px, ((1 - at.y) / 2) * this.size.height - py);
