@@ -61,7 +61,7 @@ test("axes are words", { skip }, async () => {
 test("of clusters that overlap the best are drawn, and the others as one zooms in", { skip }, async () => {
   await moveSlider(page, 0);
   await showOnly(page, "clusters");
-  const hidden = async () => Number(/(\d+) more as you zoom in/.exec(await page.locator(".map .note").innerText())?.[1] ?? 0);
+  const hidden = async () => Number(/(\d+) more clusters as you zoom in/.exec(await page.locator(".map .note").innerText())?.[1] ?? 0);
   const counts = [await hidden()];
   const best = steps[0].best[0].pose;
   // The best one is always drawn.

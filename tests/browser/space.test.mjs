@@ -375,6 +375,21 @@ test("under a cluster that a step lacks nothing is laid, though the next step ha
   assert.match(await page.locator(".space .note").innerText(), /no such pose/);
 });
 
+test("what is missing is told beside what else is, as on the plan", { skip }, async () => {
+  const bare = join(work, "without_maps");
+  cpSync(folder, bare, { recursive: true });
+  rmSync(join(bare, "maps"), { recursive: true });
+  const file = report(join(work, "one_map.html"), folder, bare, "--clusters", "3");
+  const opened = await open(`${file}#run=without_maps&step=1`);
+  const note = await opened.page.locator(".space .note").innerText();
+  assert.match(note, /no global map.*The 3 best of 10 clusters.*Local maps of this trial were not recorded/);
+  await opened.page.locator("[data-view=plan]").click();
+  await drawn(opened.page);
+  assert.ok((await opened.page.locator(".map:not(.space) .note").innerText()).startsWith(note));
+  assertQuiet(opened);
+  await opened.page.close();
+});
+
 test("every column of a table tells what it is", { skip }, () => assertTablesExplained(page, 20));
 
 test("axe finds nothing serious", { skip }, () => assertAccessibleInBoth(page, "space"));

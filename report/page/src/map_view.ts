@@ -6,7 +6,7 @@ import { boundingBox, compose, degrees, inverse, union, type Box } from "./geome
 import { saveMenu } from "./export";
 import { drawGridLines, drawGridNumbers, drawScale, SpacePicture, type Screen } from "./map_background";
 import { MapLegend } from "./map_legend";
-import { whatIsMissing } from "./missing";
+import { missingOfStep, whatIsMissing } from "./missing";
 import { NearPlaces } from "./near_places";
 import { fixed, significant } from "./numbers";
 import { SvgPen, type Pen } from "./pen";
@@ -300,26 +300,12 @@ export class MapView implements Linked {
 
   /** For those who cannot see the picture, and what is missing in it for those who can. */
   private tellState(): void {
-    const { steps, trial } = this.store;
-    const { step, hypothesis } = this.store.selected;
-    const missing = whatIsMissing(this.store);
+    const { steps, selected } = this.store;
+    const missing = [...whatIsMissing(this.store), ...missingOfStep(this.store, chosenPose(this.store) !== null)];
     if (steps && steps.step.length > 0) {
-      const listed = steps.best.first[step + 1] - steps.best.first[step];
-      if (listed < steps.clusters[step]) missing.push(`The ${listed} best of ${steps.clusters[step]} clusters.`);
-      const hidden = listed - clustersDrawn(steps, this.store.selected, this.view.scale).length;
-      if (hidden > 0) missing.push(`${hidden} more as you zoom in.`);
-      if (!chosenPose(this.store)) {
-        missing.push(
-          hypothesis === "estimate"
-            ? "No hypothesis in this step: nothing to lay the local map under."
-            : "This step has no such pose: nothing to lay the local map under.",
-        );
-      }
-      const lives = trial?.local_map;
-      const frame = lives ? frameAt(lives, step) : -1;
-      if (this.store.report.live && frame < 0) missing.push("While the run goes on, only the newest step has its local map.");
-      else if (!lives) missing.push("Local maps of this trial were not recorded (output.maps: all records every trial's).");
-      else if (frame >= 0 && lives.steps[frame] !== step) missing.push(`The local map is that of step ${lives.steps[frame]}.`);
+      const listed = steps.best.first[selected.step + 1] - steps.best.first[selected.step];
+      const hidden = listed - clustersDrawn(steps, selected, this.view.scale).length;
+      if (hidden > 0) missing.push(`${hidden} more clusters as you zoom in.`);
     }
     replace(this.note, missing.join(" "));
     this.canvas.setAttribute("aria-label", this.description());

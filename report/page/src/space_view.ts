@@ -6,7 +6,7 @@ import { el, replace } from "./elements";
 import { degrees } from "./geometry";
 import { KeptDrawing } from "./kept_drawing";
 import { layerBox } from "./layer_box";
-import { whatIsMissing } from "./missing";
+import { missingOfStep, whatIsMissing } from "./missing";
 import { fixed, significant } from "./numbers";
 import { Arrows } from "./space_arrows";
 import { Cameras, type CameraName } from "./space_cameras";
@@ -249,11 +249,12 @@ export class SpaceView {
     this.clouds.local_map.clear();
     this.clouds.scan.clear();
     this.tip.hidden = true;
-    replace(this.note, whatIsMissing(this.store).join(" "));
+    const { step } = this.store.selected;
+    const robot = steps && steps.step.length > 0 ? this.chosenPose(steps, step) : null;
+    replace(this.note, [...whatIsMissing(this.store), ...missingOfStep(this.store, robot !== null)].join(" "));
     if (steps && steps.step.length > 0) {
-      const { step } = this.store.selected;
       this.showPoses(steps, step);
-      this.showObserved(steps, step);
+      if (robot) this.showObserved(steps, step, robot);
       this.canvas.setAttribute(
         "aria-label",
         `The map in space at step ${step} of trial ${this.store.trial?.trial}: ${steps.verdict[step].replace("_", " ")}, ${steps.clusters[step]} clusters`,
@@ -301,22 +302,15 @@ export class SpaceView {
   }
 
   /** The local map and the scan, laid under the chosen pose. */
-  private showObserved(steps: Steps, step: number): void {
-    const robot = this.chosenPose(steps, step);
+  private showObserved(steps: Steps, step: number, robot: SpacePose): void {
     const inLocal = columnPose(steps.local_from_robot, step);
     const { local_map: lives, scans } = this.store.trial ?? {};
-    if (!lives) replace(this.note, "Local maps of this trial were not recorded (output.maps: all records every trial's).");
-    if (!robot) {
-      replace(this.note, "This step has no such pose: nothing to lay the local map under.");
-      return;
-    }
     const sceneFromRobot = matrixOf(this.placed(robot), robot);
     if (lives?.z && inLocal) {
       const frame = frameAt(lives, step);
       const chosen = lives.from.flatMap((from, i) => (from <= frame && frame < lives.to[i] ? [i] : []));
       const localFromRobot = matrixOf(new Vector3(...inLocal.position), inLocal);
       this.observed("local_map", { ...lives, z: lives.z }, chosen, sceneFromRobot.clone().multiply(localFromRobot.invert()));
-      if (frame >= 0 && lives.steps[frame] !== step) replace(this.note, `The local map is that of step ${lives.steps[frame]}.`);
     }
     const frame = scans ? frameAt(scans, step) : -1;
     if (scans?.z && frame >= 0 && scans.steps[frame] === step)
