@@ -281,6 +281,13 @@ test("a trial that is chosen is shown, whatever moves the steps until it is load
   delete globalThis.document;
 });
 
+test("what cannot be seen is told in the words of the page", () => {
+  const steps = { step: [0], verdict: ["unknown_place"], clusters: [7] };
+  const shown = { steps, trial: { trial: 4 }, selected: { step: 0 } };
+  assert.equal(missing.shownIn("Map", shown), "Map at step 0 of trial 4: unknown place, 7 clusters");
+  assert.equal(missing.shownIn("Map", { ...shown, steps: undefined }), "Map");
+});
+
 test("poses in space are read from their columns", () => {
   const pose = { x: [1, null], y: [2, null], z: [3, null], qx: [0, null], qy: [0, null], qz: [0.6, null], qw: [0.8, null] };
   assert.deepEqual(spacePoses.columnPose(pose, 0), { position: [1, 2, 3], rotation: [0, 0, 0.6, 0.8] });

@@ -6,7 +6,7 @@ import { boundingBox, compose, degrees, inverse, union, type Box } from "./geome
 import { saveMenu } from "./export";
 import { drawGridLines, drawGridNumbers, drawScale, SpacePicture, type Screen } from "./map_background";
 import { MapLegend } from "./map_legend";
-import { missingOfStep, whatIsMissing } from "./missing";
+import { missingOfStep, shownIn, whatIsMissing } from "./missing";
 import { NearPlaces } from "./near_places";
 import { fixed, significant } from "./numbers";
 import { SvgPen, type Pen } from "./pen";
@@ -183,7 +183,7 @@ export class MapView implements Linked {
       this.drawPoints(new SvgPoints(pen, this.width, this.height, this.placement(1)), 1);
       this.drawLines(pen);
     });
-    return pen.file(this.description(), themeColour("paper"));
+    return pen.file(shownIn("Map", this.store), themeColour("paper"));
   }
 
   /** Points replace what is drawn: what lies below them is drawn later, the uppermost first. */
@@ -308,14 +308,7 @@ export class MapView implements Linked {
       if (hidden > 0) missing.push(`${hidden} more clusters as you zoom in.`);
     }
     replace(this.note, missing.join(" "));
-    this.canvas.setAttribute("aria-label", this.description());
-  }
-
-  private description(): string {
-    const { steps, trial, selected } = this.store;
-    const { step } = selected;
-    if (!steps) return "Map";
-    return `Map at step ${step} of trial ${trial?.trial}: ${steps.verdict[step] ?? "no step"}, ${steps.clusters[step] ?? 0} clusters`;
+    this.canvas.setAttribute("aria-label", shownIn("Map", this.store));
   }
 
   /** One more button beside those that zoom. */

@@ -6,7 +6,7 @@ import { el, replace } from "./elements";
 import { degrees } from "./geometry";
 import { KeptDrawing } from "./kept_drawing";
 import { layerBox } from "./layer_box";
-import { missingOfStep, whatIsMissing } from "./missing";
+import { missingOfStep, shownIn, whatIsMissing } from "./missing";
 import { fixed, significant } from "./numbers";
 import { Arrows } from "./space_arrows";
 import { Cameras, type CameraName } from "./space_cameras";
@@ -60,7 +60,7 @@ function indices(begin: number, end: number): number[] {
 
 export class SpaceView {
   readonly element: HTMLElement;
-  private readonly canvas = el("canvas", { tabindex: 0, role: "img", "aria-label": "The map in space" });
+  private readonly canvas = el("canvas", { tabindex: 0, role: "img" });
   private readonly stage = el("div", { class: "stage" });
   private readonly tip = el("div", { class: "tip", hidden: true });
   private readonly note = el("p", { class: "note" });
@@ -255,11 +255,8 @@ export class SpaceView {
     if (steps && steps.step.length > 0) {
       this.showPoses(steps, step);
       if (robot) this.showObserved(steps, step, robot);
-      this.canvas.setAttribute(
-        "aria-label",
-        `The map in space at step ${step} of trial ${this.store.trial?.trial}: ${steps.verdict[step].replace("_", " ")}, ${steps.clusters[step]} clusters`,
-      );
     }
+    this.canvas.setAttribute("aria-label", shownIn("The map in space", this.store));
     this.draw();
   }
 
