@@ -127,7 +127,7 @@ test("the estimate's dots have the colour of the verdict or of the error", { ski
   await select.selectOption("plain");
 });
 
-test("a click lists the candidates near the place", { skip }, async () => {
+test("a click lists the clusters near the place", { skip }, async () => {
   await moveSlider(page, 0);
   await showOnly(page, "clusters");
   const view = await mapView(page);
@@ -141,7 +141,7 @@ test("a click lists the candidates near the place", { skip }, async () => {
   const expected = distances.map((d, rank) => ({ d, rank })).sort((a, b) => a.d - b.d);
   // The page's own place may be a part of a pixel away.
   const within = (radius) => distances.filter((d) => d <= radius).length;
-  const [, found] = /^(\d+) candidates? within 1.0 m/.exec(await page.locator(".near strong").innerText());
+  const [, found] = /^(\d+) clusters? within 1.0 m/.exec(await page.locator(".near strong").innerText());
   assert.ok(found >= within(1 - 1.5 / view.scale) && found <= within(1 + 1.5 / view.scale), `${found} for ${within(1)}`);
   const listed = await page.locator(".near li button").allInnerTexts();
   // Neighbours may change places.

@@ -1,4 +1,4 @@
-// Lists the candidates near a place that was clicked: on the map they may hide each other.
+// Lists the clusters near a place that was clicked: on the map they may hide each other.
 import { ratingColour } from "./colours";
 import type { Steps } from "./data";
 import { el, replace } from "./elements";
@@ -8,7 +8,7 @@ import type { Store } from "./store";
 const mostListed = 8;
 
 export class NearPlaces {
-  readonly element = el("div", { class: "near", role: "region", "aria-label": "Candidates near the place clicked", hidden: true });
+  readonly element = el("div", { class: "near", role: "region", "aria-label": "Clusters near the place clicked", hidden: true });
 
   constructor(private readonly store: Store) {
     store.subscribe((change) => change.step && this.hide());
@@ -44,7 +44,7 @@ export class NearPlaces {
     replace(
       this.element,
       el("button", { type: "button", class: "close", "aria-label": "Close", click: () => this.hide() }, "✕"),
-      el("strong", {}, found.length === 0 ? `No candidate ${within}` : `${found.length} ${found.length === 1 ? "candidate" : "candidates"} ${within}`),
+      el("strong", {}, found.length === 0 ? `No cluster ${within}` : `${found.length} ${found.length === 1 ? "cluster" : "clusters"} ${within}`),
       found.length > 0 && el("ul", {}, ...found.slice(0, mostListed).map(entry)),
       rest > 0 && el("p", {}, `and ${rest} more`),
     );
