@@ -54,6 +54,7 @@ test("the page shows the run as it goes on, and keeps what it has when the progr
   run.kill("SIGINT");
   assert.equal(await ended, 3);
   await page.waitForFunction(() => /does not answer|finished/.test(document.querySelector(".live").textContent));
+  assert.doesNotMatch(await page.locator(".live").innerText(), /[^.] The program/);
   // What it shows is what the run would have written of the step; a trial that was not finished is not kept.
   assert.match(await page.locator(".details").innerText(), /Ω best/);
   const origin = new URL(address).origin;

@@ -56,6 +56,6 @@ export class LiveNews {
   }
 
   private ended(): void {
-    replace(this.text, `${this.text.textContent ?? ""} The program does not answer any more: this is the last it told.`);
+    replace(this.text, `${this.text.textContent ?? ""}. The program does not answer any more: this is the last it told.`);
   }
 }
