@@ -1,5 +1,6 @@
 // Links to what is shown, and pictures and tables as files.
 import assert from "node:assert/strict";
+import { cpSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { assertTablesExplained } from "./meanings.mjs";
@@ -203,4 +204,19 @@ test("curves are saved with their lines and the names of the runs", { skip }, as
   const png = await saved(page, page.locator("[data-curve=omega_best] [data-save=png]"));
   const picture = await seen(page, png.content, "image/png");
   assert.ok(Object.keys(picture.colours).length > 10);
+});
+
+test("curves of other runs are drawn though those of one cannot be loaded", { skip }, async () => {
+  const third = join(work, "third");
+  cpSync(join(folder, "fewer_draws"), third, { recursive: true });
+  const damaged = report(join(work, "damaged.html"), ...variants.map((name) => join(folder, name)), third);
+  // Chunks follow each other as the runs do.
+  const chunks = [...readFileSync(damaged, "utf8").matchAll(/<script type="text\/plain" id="glocal-chunk-\d+">[^<]*<\/script>/g)].map(([chunk]) => chunk);
+  writeFileSync(damaged, chunks.slice((chunks.length * 2) / 3).reduce((text, chunk) => text.replace(chunk, ""), readFileSync(damaged, "utf8")));
+  const opened = await open(`${damaged}#run=paper&trial=0`);
+  const svg = await saved(opened.page, opened.page.locator("[data-curve=omega_best] [data-save=svg]"));
+  const names = [...svg.content.toString().matchAll(/>([a-z_]+)<\/text>/g)].map(([, name]) => name);
+  assert.deepEqual(names.filter((name) => [...variants, "third"].includes(name)).sort(), [...variants].sort());
+  assertQuiet(opened);
+  await opened.page.close();
 });

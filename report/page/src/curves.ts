@@ -100,7 +100,7 @@ export class Curves {
     if (missing.length > 0) {
       const before = this.store.trial;
       // What cannot be loaded is told on the map.
-      void this.store.load(missing).then(() => before === this.store.trial && missing.every(({ chunk }) => chunk === undefined) && this.rebuild());
+      void this.store.load(missing).then(() => before === this.store.trial && missing.some(({ chunk }) => chunk === undefined) && this.rebuild());
     }
     const shown = on.flatMap((each): Shown[] => (each.trial.columns ? [{ ...each, steps: each.trial.columns }] : []));
     for (const panel of this.panels) panel.rebuild(shown);

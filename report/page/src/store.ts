@@ -113,11 +113,10 @@ export class Store {
     const missing = trials.filter(({ chunk }) => chunk !== undefined);
     if (missing.length === 0) return;
     document.body.dataset.loading = String(++this.loads);
-    try {
-      await Promise.all(missing.map((trial) => this.chunks.load(trial)));
-    } catch (error) {
+    const note = (error: unknown): void => {
       this.lastFault = error instanceof Error ? error.message : String(error);
-    }
+    };
+    await Promise.all(missing.map((trial) => this.chunks.load(trial).catch(note)));
     if (--this.loads === 0) delete document.body.dataset.loading;
   }
 
