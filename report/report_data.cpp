@@ -27,10 +27,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr int format = 1;
 
-Fault fault_of(const fs::path& file, const std::string& what) {
-  return {file.string(), 0, 0, what + "; run the experiment again"};
-}
-
 /// How many recordings of a kind there are: step_0000.pcd, step_0001.pcd …
 std::size_t count_recordings(const fs::path& folder, std::string_view kind) {
   std::size_t n = 0;
@@ -133,9 +129,10 @@ void ReportData::read_recordings(Run& run, std::size_t number, FaultCollector& f
     frames.emplace(most / ++trials_with);
     const std::size_t steps = trial.steps ? trial.steps->size() : found;
     if (found > steps)
-      faults.add(fault_of(folder, fmt::format("steps.jsonl has {} steps of this trial, where there are {} "
-                                              "files {}_NNNN.pcd",
-                                              steps, found, kind)));
+      faults.add({folder.string(), 0, 0,
+                  fmt::format("steps.jsonl has {} steps of this trial, where there are {} files {}_NNNN.pcd; "
+                              "run the experiment again",
+                              steps, found, kind)});
     for (std::size_t step = 0; step < steps; ++step) {
       faults.collect([&] { frames->add(read_pcd(folder / fmt::format("{}_{:04}.pcd", kind, step))); });
     }
