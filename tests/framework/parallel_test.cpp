@@ -2,8 +2,12 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstdint>
+#include <functional>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -41,13 +45,21 @@ void burn(double ms) {
   }
 }
 
-TEST(ParallelFor, CountsTheTimeOfAllProcessors) {
-  for (const int threads : {1, 2, 4}) {
-    const auto work = [&] { parallel_for(threads, 20, [](std::size_t) { burn(2.0); }); };
-    work();  // Threads begin.
+/// The least time of a processor that work takes: threads that begin, and a host that takes the processor
+/// away, only add to it.
+double least_ms(const std::function<void()>& work) {
+  std::int64_t least = std::numeric_limits<std::int64_t>::max();
+  for (int i = 0; i < 5; ++i) {
     const std::int64_t begin = cpu_time_ns();
     work();
-    const double ms = 1e-6 * static_cast<double>(cpu_time_ns() - begin);
+    least = std::min(least, cpu_time_ns() - begin);
+  }
+  return 1e-6 * static_cast<double>(least);
+}
+
+TEST(ParallelFor, CountsTheTimeOfAllProcessors) {
+  for (const int threads : {1, 2, 4}) {
+    const double ms = least_ms([&] { parallel_for(threads, 20, [](std::size_t) { burn(2.0); }); });
     EXPECT_GE(ms, 40.0) << threads;
 #ifndef __SANITIZE_THREAD__  // Threads that wake take ThreadSanitizer tens of milliseconds of its own.
     // Not much besides, and nothing twice.
@@ -73,9 +85,8 @@ TEST(ForBands, TakeEachRowOnceAndCutNoneApart) {
 }
 
 TEST(ParallelFor, CountsNoTimeOfWaiting) {
-  const std::int64_t begin = cpu_time_ns();
-  parallel_for(2, 4, [](std::size_t) { std::this_thread::sleep_for(std::chrono::milliseconds(20)); });
-  EXPECT_LT(1e-6 * static_cast<double>(cpu_time_ns() - begin), 15.0);
+  const auto wait = [](std::size_t) { std::this_thread::sleep_for(std::chrono::milliseconds(20)); };
+  EXPECT_LT(least_ms([&] { parallel_for(2, 4, wait); }), 15.0);
 }
 
 TEST(ParallelFor, ThrowsWhatACallThrows) {
