@@ -40,18 +40,15 @@ file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/glocalConfig.cmake
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/glocalConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/glocalConfigVersion.cmake
   DESTINATION ${package_dir})
 
-# Folders that are relative to the prefix are found from where the file lies, so that an installed tree can be moved. Others stay where they are.
-foreach(folder LIBDIR INCLUDEDIR)
-  set(pc_${folder} "\${prefix}/${CMAKE_INSTALL_${folder}}")
-  if(IS_ABSOLUTE "${CMAKE_INSTALL_${folder}}")
-    set(pc_${folder} ${CMAKE_INSTALL_${folder}})
-  endif()
-endforeach()
+# Folders that are relative to the prefix are found from where the file lies, so that an installed tree can be moved. Absolute ones stay as they are:
+# appended to another path they take its place.
 set(pc_prefix ${CMAKE_INSTALL_PREFIX})
 if(NOT IS_ABSOLUTE "${CMAKE_INSTALL_LIBDIR}")
   file(RELATIVE_PATH libdir_to_prefix ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
   set(pc_prefix "\${pcfiledir}/${libdir_to_prefix}")
 endif()
+cmake_path(APPEND pc_libdir "\${prefix}" "${CMAKE_INSTALL_LIBDIR}")
+cmake_path(APPEND pc_includedir "\${prefix}" "${CMAKE_INSTALL_INCLUDEDIR}")
 configure_file(cmake/glocal.pc.in glocal.pc @ONLY)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/glocal.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 
