@@ -100,14 +100,18 @@ void ContentsReader::take(const RecordedMessage& message) {
   const std::string& type = message.connection->type;
   const std::string& topic = message.connection->topic;
   if (has_transforms(type)) {
-    for (const FrameTransform& transform : read_transforms(message))
-      contents_.tree.add(transform, topic.ends_with("tf_static"));
+    const bool is_still = topic.ends_with("tf_static");
+    for (const FrameTransform& transform : read_transforms(message)) {
+      contents_.tree.add(transform, is_still);
+      if (!is_still && transform.header.frame == odom_frame()) odometry_ns_ = transform.header.stamp_ns;
+    }
   } else if (has_scans(type)) {
     take_scan(message);
   } else if (has_odometry(type)) {
     const Odometry odometry = read_odometry(message);
     auto& [poses, frame, child] = odometry_[topic];
     poses.add(odometry.header.stamp_ns, odometry.frame_from_child);
+    odometry_ns_ = odometry.header.stamp_ns;
     frame = odometry.header.frame;
     child = odometry.child_frame;
     if (topic == wanted_.reference)
@@ -149,6 +153,10 @@ void ContentsReader::fail(const std::string& message) const {
   throw ConfigError(source_, message);
 }
 
+std::string ContentsReader::odom_frame() const {
+  return wanted_.odom_frame.empty() ? "odom" : wanted_.odom_frame;
+}
+
 std::string ContentsReader::name_of(std::string_view key) const {
   return key_or_option(key, wanted_);
 }
@@ -169,7 +177,7 @@ void ContentsReader::take_scan(const RecordedMessage& message) {
 void ContentsReader::choose_frames() {
   DriveContents& c = contents_;
   const TransformTree& tree = c.tree;
-  c.odom_frame = wanted_.odom_frame.empty() ? "odom" : wanted_.odom_frame;
+  c.odom_frame = odom_frame();
   std::vector<std::string> bases = {wanted_.base_frame};
   if (wanted_.base_frame.empty()) bases = {"base_footprint", "base_link"};
   const auto base = std::find_if(bases.begin(), bases.end(), [&](const std::string& frame) {

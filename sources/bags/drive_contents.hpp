@@ -75,6 +75,8 @@ class ContentsReader {
   /// What is known by now, or, where no more comes, all there is. Throws ConfigError, with what there is, for
   /// several topics where one is needed, and frames that tf does not connect. What was once chosen stays.
   DriveContents& settle(bool more_may_come);
+  /// The stamp of the last message of odometry, by a topic or as tf from the frame that it counts from.
+  [[nodiscard]] std::optional<std::int64_t> odometry_ns() const { return odometry_ns_; }
   /// Forgets how the robot and its sensors moved before a time.
   void forget_before(std::int64_t stamp_ns);
 
@@ -85,6 +87,7 @@ class ContentsReader {
   };
 
   [[noreturn]] void fail(const std::string& message) const;
+  [[nodiscard]] std::string odom_frame() const;
   [[nodiscard]] std::string name_of(std::string_view key) const;
   void take_scan(const RecordedMessage& message);
   void choose_frames();
@@ -97,6 +100,7 @@ class ContentsReader {
   std::string source_;
   DriveContents contents_;
   std::map<std::string, OdometryTopic> odometry_;
+  std::optional<std::int64_t> odometry_ns_;
 };
 
 /// Reads all but the scans' content, and finds out what is not asked for by name. Throws ConfigError where

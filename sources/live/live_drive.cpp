@@ -165,22 +165,11 @@ void LiveDrive::take(const LiveMessage& message) {
     if (bags::has_scans(connection->second.type)) return take_scan(recorded);
     contents_.take(recorded);
     is_news_ = true;
-    message.topic.name.ends_with("/tf_static") ? note_mounts(recorded) : note_odometry(recorded);
+    if (message.topic.name.ends_with("/tf_static")) note_mounts(recorded);
   } catch (const ConfigError& error) {
     // What is wrong has numbers in it that are others in each message.
     warn_once(fmt::format("a message of {} is left out: {}", shown(message.topic.name), error.what()),
               message.topic.name);
-  }
-}
-
-void LiveDrive::note_odometry(const bags::RecordedMessage& message) {
-  if (bags::has_odometry(message.connection->type)) {
-    if (const auto header = bags::readable_header(message)) odometry_ns_ = header->stamp_ns;
-    return;
-  }
-  const std::string odom_frame = topics_.odom_frame.empty() ? "odom" : topics_.odom_frame;
-  for (const bags::FrameTransform& transform : bags::read_transforms(message)) {
-    if (transform.header.frame == odom_frame) odometry_ns_ = transform.header.stamp_ns;
   }
 }
 
@@ -238,9 +227,10 @@ std::optional<Sample> LiveDrive::next() {
 }
 
 std::optional<std::int64_t> LiveDrive::odometry_ns() const {
+  const auto odometry_ns = contents_.odometry_ns();
   const bool is_watched =
-      odometry_ns_ && last_stamp_ns_ && *odometry_ns_ - *last_stamp_ns_ < longest_silence_ns;
-  return is_watched ? odometry_ns_ : std::nullopt;
+      odometry_ns && last_stamp_ns_ && *odometry_ns - *last_stamp_ns_ < longest_silence_ns;
+  return is_watched ? odometry_ns : std::nullopt;
 }
 
 std::optional<Pose3> LiveDrive::robot_at(std::int64_t stamp_ns, const bags::DriveContents& contents) const {

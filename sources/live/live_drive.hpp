@@ -68,8 +68,7 @@ class LiveDrive final : public ObservationSource {
   /// The next scan that comes is an observation, though the robot has not moved on. May be called in next().
   void look_anew();
 
-  /// The stamp of the last message of odometry, by a topic or as tf from the frame that it counts from; none
-  /// where no scans come.
+  /// The stamp of the last message of odometry; none where no scans come.
   [[nodiscard]] std::optional<std::int64_t> odometry_ns() const;
 
   /// How many observations were not delivered, since a newer one was there: of the scans that the link had,
@@ -91,7 +90,6 @@ class LiveDrive final : public ObservationSource {
   void subscribe(const LiveTopic& topic, Delivery delivery);
   void take(const LiveMessage& message);
   void note_mounts(const bags::RecordedMessage& message);
-  void note_odometry(const bags::RecordedMessage& message);
   void take_scan(const bags::RecordedMessage& message);
   /// Whether the clock has gone back to this stamp, and what was known of later ones is forgotten.
   [[nodiscard]] bool is_back_at(std::int64_t stamp_ns);
@@ -137,7 +135,6 @@ class LiveDrive final : public ObservationSource {
   bool is_behind_ = false;  ///< A scan that came after it was left out, as it lay far back.
   /// Of the last scan of which it is known where the robot was.
   std::optional<std::int64_t> placed_ns_;
-  std::optional<std::int64_t> odometry_ns_;                ///< Of the last message of odometry.
   std::int64_t received_ns_ = 0, placed_received_ns_ = 0;  ///< The last message, and that scan.
   std::optional<std::int64_t> forgotten_until_ns_;
   std::optional<Pose3> last_keyframe_;  ///< The robot in the odometry's frame.
