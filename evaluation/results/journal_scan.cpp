@@ -206,7 +206,10 @@ void JournalScan::take_content(std::size_t journal, std::optional<std::uint64_t>
   } else if (word == journal_words::begin) {
     const TrialId id = trial_id_of(next_word(rest));
     const Place at = place();
-    if (!finished_.contains(id)) begun_[id] = at;
+    // Who was killed may have begun it, too.
+    const auto begun = begun_.find(id);
+    const bool is_known = begun != begun_.end() && journals_[begun->second.journal].is_live;
+    if (!finished_.contains(id) && (journals_[journal].is_live || !is_known)) begun_[id] = at;
   } else if (word == journal_words::file) {
     const TrialId id = trial_id_of(next_word(rest));
     const Place at = place();

@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "python/src/conversions.hpp"
 #include "python/src/values.hpp"
@@ -12,6 +13,8 @@ namespace {
 
 using Clusters = Seen<std::vector<Cluster>>;
 using Ratings = Seen<std::vector<Rating>>;
+
+constexpr double most_proposals = 0x1p53;  // Doubles tell all whole numbers up to this one apart.
 
 std::size_t checked_size(const char* what, std::size_t size, std::size_t wanted) {
   if (size != wanted)
@@ -33,8 +36,9 @@ SeenHypotheses make_hypotheses(const py::object& map_from_local, const py::objec
   std::vector<Hypothesis> hypotheses;
   hypotheses.reserve(poses.size());
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    if (!(supports[i] >= 1.0))
-      throw py::value_error("the support of a pose is the number of proposals it stands for: 1 or more");
+    if (!(supports[i] >= 1.0 && supports[i] <= most_proposals && supports[i] == std::floor(supports[i])))
+      throw py::value_error(
+          "the support of a pose is the number of proposals it stands for: a whole number, 1 or more");
     Hypothesis h = Hypothesis::by_contact(poses[i], omega[i]);
     h.score = scores[i];
     h.support = static_cast<std::size_t>(supports[i]);
@@ -63,8 +67,7 @@ void bind_list_of_hypotheses(py::module_& module) {
            "map_from_local: poses of the local map in the map, N x 3 (x, y, heading) or N x 7. quality: "
            "Omega (eq. 4), share "
            "of local points in contact. score: what they are ranked by, the quality unless given. support: "
-           "how many "
-           "proposals each stands for. They are sorted by falling score.")
+           "how many proposals each stands for, a whole number. They are sorted by falling score.")
       .def("__len__", [](const Bound& h) { return h->size(); })
       .def_property_readonly(
           "map_from_local", [](const Bound& h) { return array_of_poses(*h, &Hypothesis::map_from_local); },

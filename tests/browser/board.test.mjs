@@ -126,6 +126,25 @@ test("nothing scrolls aside on a telephone, and all can be reached", { skip }, a
   await page.setViewportSize({ width: 1366, height: 768 });
 });
 
+test("a table of twenty methods fits, and all of a row can be read", { skip }, async () => {
+  const many = join(work, "many");
+  mkdirSync(join(many, "paper@1"), { recursive: true });
+  const methods = Array.from({ length: 20 }, (_, i) => `method_${i}`);
+  for (const method of methods) writeFileSync(join(many, `paper@1/${method}.json`), JSON.stringify({ ...paper, method }));
+  glocal("leaderboard", "--board", many, "-o", join(work, "many.html"));
+  const wide = (await open(join(work, "many.html"))).page;
+  await wide.setViewportSize({ width: 900, height: 800 });
+  await drawn(wide);
+  assert.equal(await wide.evaluate(() => document.documentElement.scrollWidth), 900);
+  const table = wide.locator(".table").filter({ hasText: "paper_lab" }).first();
+  const heads = await table.locator("thead th").evaluateAll((all) => all.filter((head) => head.offsetWidth > 0).map(({ innerText }) => innerText));
+  assert.ok(heads.length > 3 && heads.length < 20, heads.join(", "));
+  await table.locator(".unfold").first().click();
+  const told = await table.locator(".unfolded dt").allInnerTexts();
+  assert.deepEqual([...heads.slice(2), ...told].sort(), methods.sort());
+  await wide.close();
+});
+
 test("every column of a table tells what it is", { skip }, () => assertTablesExplained(page, 20));
 
 test("axe finds nothing serious", { skip }, () => assertAccessibleInBoth(page, "leaderboard"));

@@ -206,6 +206,17 @@ test("curves are saved with their lines and the names of the runs", { skip }, as
   assert.ok(Object.keys(picture.colours).length > 10);
 });
 
+test("a picture that is too large for a PNG is told of", { skip }, async () => {
+  const menu = page.locator("[data-curve=omega_best] .save");
+  const picture = await page.evaluateHandle(() => Object.getOwnPropertyDescriptor(HTMLCanvasElement.prototype, "toBlob"));
+  await page.evaluate(() => (HTMLCanvasElement.prototype.toBlob = (done) => done(null)));
+  await menu.locator("summary").click();
+  await menu.locator("[data-save=png]").click();
+  await menu.locator(".warning", { hasText: "No PNG: the picture is too large for a PNG file." }).waitFor();
+  await page.evaluate((its) => Object.defineProperty(HTMLCanvasElement.prototype, "toBlob", its), picture);
+  await menu.locator("summary").click();
+});
+
 test("curves of other runs are drawn though those of one cannot be loaded", { skip }, async () => {
   const third = join(work, "third");
   cpSync(join(folder, "fewer_draws"), third, { recursive: true });

@@ -162,8 +162,10 @@ test("runs are told by setting, by case or alone", () => {
   assert.equal(answers.groupsOf([...runs, runs[0]], "setting").length, 8);
   // What has one name is not one method where its values differ.
   const changed = { ...runs[0], name: "changed", settings: { ...runs[0].settings, "localizer.contact_epsilon": { text: "0.2" } } };
-  changed.provenance = { ...runs[0].provenance, variant: { ...runs[0].provenance.variant, seed: 77 } };
-  assert.equal(answers.groupsOf([...runs, changed], "setting").length, 9);
+  for (const part of [{ seed: 77 }, { case: "cellar" }]) {
+    changed.provenance = { ...runs[0].provenance, variant: { ...runs[0].provenance.variant, ...part } };
+    assert.equal(answers.groupsOf([...runs, changed], "setting").length, 9);
+  }
   // Settings of one name in two experiments are two.
   const other = run("other", { setting: "a", case: "lab", seed: 1 }, [trial("wrong")], { name: { text: "second" } });
   assert.deepEqual(answers.groupsOf([runs[0], other], "setting").map(({ name }) => name), ["lab, a", "second, a"]);

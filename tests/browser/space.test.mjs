@@ -276,6 +276,15 @@ test("a cluster is chosen by a click, and the plan is still there", { skip }, as
   assert.equal(await page.locator(canvas).isVisible(), false);
 });
 
+test("clusters are told with their heights", { skip }, async () => {
+  await moveSlider(page, 0);
+  const texts = (selector) => page.locator(`.hypotheses ${selector}`).evaluateAll((cells) => cells.map(({ textContent }) => textContent));
+  const column = (await texts("thead th")).indexOf("z, m");
+  const heights = await texts(`tbody tr > :nth-child(${column + 1})`);
+  assert.ok(heights.length > 0);
+  heights.forEach((height, i) => assert.equal(height, steps[0].best[i].pose.z.toFixed(2)));
+});
+
 test("the certificate is told in a sentence with its numbers", { skip }, async () => {
   const certified = steps.findIndex((step) => step.verification?.certificate);
   assert.ok(certified >= 0);

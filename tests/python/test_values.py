@@ -237,6 +237,9 @@ def test_hypotheses_are_sorted_and_seen_as_columns():
     assert h.quality.strides == h.score.strides  # members of one struct
     with pytest.raises(ValueError, match="quality"):
         glocal.Hypotheses([[0, 0, 0]], [0.1, 0.2])
+    for proposals in (0, 1.5, math.inf, math.nan):
+        with pytest.raises(ValueError, match="whole number"):
+            glocal.Hypotheses([[0, 0, 0]], [0.1], support=[proposals])
 
 
 def test_no_hypotheses_are_columns_without_rows():

@@ -30,16 +30,12 @@ export interface Answer extends Group {
   memory_mb: number | null;
 }
 
-/**
- * Whether all of them are parts of experiments with variants, cases or seeds, no two are the same one, and what has
- * one name has the same localizer with all seeds.
- */
+/** Whether all of them are parts of experiments with variants, cases or seeds, no two are the same one, and those of a setting have one localizer. */
 function areParts(runs: Run[]): boolean {
   const parts = new Set(runs.map((run) => partKey(run)));
   const methods = new Map<string, string>();
   const isSameMethod = (run: Run): boolean => {
-    const { setting, case: its } = run.provenance?.variant ?? {};
-    const key = JSON.stringify([experimentOf(run), setting, its]);
+    const key = JSON.stringify([experimentOf(run), run.provenance?.variant?.setting]);
     const known = methods.get(key) ?? localizerOf(run);
     methods.set(key, known);
     return known === localizerOf(run);

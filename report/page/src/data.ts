@@ -317,6 +317,10 @@ export interface Report {
   sweep?: Sweep;
 }
 
+export function isInSpace({ maps }: Report): boolean {
+  return maps.some((map) => map.z !== undefined);
+}
+
 export function poseAt(poses: PoseColumns, i: number): Pose | null {
   const x = poses.x[i];
   const y = poses.y[i];

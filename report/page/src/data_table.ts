@@ -131,13 +131,16 @@ export class DataTable<Row> {
   private fit(): void {
     this.width = this.element.clientWidth;
     if (this.width === 0) return;
-    const { cells } = this.head;
-    for (let shown = cells.length; ; --shown) {
-      this.table.dataset.columns = shown < cells.length ? String(shown) : "all";
-      if (shown <= this.options.keys || this.table.offsetWidth <= this.width) break;
-    }
     for (const detail of this.body.querySelectorAll("tr.unfolded")) detail.remove();
     for (const button of this.body.querySelectorAll(".unfold")) button.setAttribute("aria-expanded", "false");
+    const rows = [...this.table.rows];
+    for (const row of rows) for (const cell of row.cells) cell.hidden = false;
+    this.table.dataset.columns = "all";
+    for (let last = this.columns.length - 1; last >= this.options.keys && this.table.offsetWidth > this.width; --last) {
+      for (const row of rows) row.cells[last].hidden = true;
+      // With fewer than all, rows get the buttons that unfold them.
+      this.table.dataset.columns = String(last);
+    }
   }
 
   private unfold(event: Event): void {

@@ -1,7 +1,7 @@
 // The numbers of the chosen step, and its clusters.
 import { certificateNote } from "./certificate";
 import { ratingColour, verdictColours, verdictNames } from "./colours";
-import type { Steps, Trial } from "./data";
+import { isInSpace, type Steps, type Trial } from "./data";
 import { DataTable, type Column } from "./data_table";
 import { append, el, replace, type Child } from "./elements";
 import { degrees } from "./geometry";
@@ -93,6 +93,7 @@ export class Details {
       { name: "hypotheses", cell: of(({ size }, k) => count(size[k])) },
       { name: "x, m", cell: of(({ x }, k) => fixed(x[k], 2)) },
       { name: "y, m", cell: of(({ y }, k) => fixed(y[k], 2)) },
+      ...(isInSpace(this.store.report) ? [{ name: "z, m", meaning: "Height of the robot in the map.", cell: of(({ z }, k) => (z?.[k] == null ? "–" : fixed(z[k], 2))) }] : []),
       { name: "θ, °", cell: of(({ theta }, k) => fixed(degrees(theta[k]), 1)) },
     ];
   }

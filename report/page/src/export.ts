@@ -1,5 +1,5 @@
 // Pictures and tables as files of their own.
-import { el } from "./elements";
+import { el, replace } from "./elements";
 
 const pixelsPerPixel = 2; // of PNG files
 
@@ -43,19 +43,24 @@ export function saveMenu(what: () => string, svg: () => string): HTMLElement {
       {
         type: "button",
         "data-save": ending,
-        click: () => void content().then((blob) => {
-          save(fileName(menu, what(), ending), blob);
-          menu.open = false;
-        }),
+        click: () => void content().then(
+          (blob) => {
+            save(fileName(menu, what(), ending), blob);
+            menu.open = false;
+          },
+          (error: unknown) => replace(fault, `No ${ending.toUpperCase()}: ${error instanceof Error ? error.message : error}.`),
+        ),
       },
       ending.toUpperCase(),
     );
+  const fault = el("p", { class: "warning", role: "alert" });
   const menu = el(
     "details",
-    { class: "save" },
+    { class: "save", toggle: () => replace(fault) },
     el("summary", { title: "Save this picture", "aria-label": "Save this picture" }, "⤓"),
     button("svg", async () => new Blob([svg()], { type: "image/svg+xml" })),
     button("png", () => pngOf(svg())),
+    fault,
   );
   return menu;
 }

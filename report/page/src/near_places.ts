@@ -12,7 +12,11 @@ export class NearPlaces {
 
   constructor(private readonly store: Store) {
     store.subscribe((change) => change.step && this.hide());
-    this.element.addEventListener("keydown", (event) => event.key === "Escape" && this.hide());
+    this.element.addEventListener("keydown", (event) => {
+      if (event.key !== "Escape") return;
+      this.hide();
+      event.stopPropagation(); // It would leave the full screen, too.
+    });
   }
 
   hide(): void {

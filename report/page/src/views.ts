@@ -1,5 +1,5 @@
 // The place of the map: the plan, and for runs in space the same seen from anywhere.
-import type { Report } from "./data";
+import { isInSpace } from "./data";
 import { el, replace } from "./elements";
 import type { MapView } from "./map_view";
 import type { SpaceView } from "./space_view";
@@ -21,10 +21,6 @@ declare global {
   interface Window {
     glocalSpace?: { SpaceView: typeof SpaceView };
   }
-}
-
-function isInSpace({ maps }: Report): boolean {
-  return maps.some((map) => map.z !== undefined);
 }
 
 export class Views implements Linked {

@@ -3,8 +3,10 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <thread>
 
 #include "evaluation/results/file_io.hpp"
@@ -249,6 +251,21 @@ TEST_F(JournalScanTest, AWriterIsAliveAsLongAsItTouchesItsFile) {
   // Another machine's clock may be ahead.
   fs::last_write_time(only_file(), fs::last_write_time(only_file()) + std::chrono::hours(3));
   EXPECT_EQ(scan().count_live(), 1U);
+}
+
+TEST_F(JournalScanTest, ATrialIsBegunByWhoIsAlive) {
+  std::array<std::optional<Journal>, 2> journals;
+  for (auto& journal : journals) {
+    journal.emplace(folder_.path(), Shard{1, 1}, 1);
+    journal->begin(first, {{"sample", 7}});
+  }
+  for (std::size_t i = 0; i < journals.size(); ++i) {
+    journals[i]->touch();
+    const fs::path& killed = journals[1 - i]->file();
+    fs::last_write_time(killed, fs::last_write_time(killed) - std::chrono::minutes(3));
+    const JournalScan read = scan();
+    EXPECT_EQ(read.journals()[read.begun().at(first).journal].file, journals[i]->file()) << i;
+  }
 }
 
 TEST_F(JournalScanTest, AFolderThatIsNotThereHasNoJournals) {
