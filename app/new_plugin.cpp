@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <filesystem>
 #include <memory>
@@ -74,6 +75,14 @@ void check(const NewPluginOptions& options, const Catalog& catalog) {
              "the name '{}' must be at most 60 small letters, digits and '_', beginning with a letter: "
              "it becomes a file and a class",
              options.name)});
+  }
+  constexpr std::array of_cmake = {"all",     "clean",   "edit_cache",    "help",
+                                   "install", "package", "rebuild_cache", "test"};
+  if (!options.python && std::find(of_cmake.begin(), of_cmake.end(), options.name) != of_cmake.end()) {
+    faults.push_back({"", 0, 0,
+                      fmt::format("'{}' is a target of CMake's own, and the plugin's would have this name; "
+                                  "choose another name",
+                                  options.name)});
   }
   const StrategyInfo* taken = registry == nullptr ? nullptr : registry->find(options.name);
   if (taken != nullptr) {

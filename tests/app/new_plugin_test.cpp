@@ -68,6 +68,7 @@ TEST_F(NewPluginCommand, RefusesWhatCannotBeBuilt) {
   expect_refused("matcher MyMatcher", "small letters");
   expect_refused("matcher 2nd", "beginning with a letter");
   expect_refused("matcher ../mine", "small letters");
+  expect_refused("matcher test", "'test' is a target of CMake's own");
   expect_refused("matcher ransam", "there is a matcher 'ransam' already, from glocal");
 }
 
