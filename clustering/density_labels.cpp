@@ -13,7 +13,7 @@ namespace {
 /// Poses in the plane, in cells all of whose members are near each other.
 class PlanarCells : public PoseCells {
  public:
-  PlanarCells(std::span<const Pose2> poses, const PoseRadius& radius)
+  PlanarCells(std::span<const Pose2> poses, const PoseTolerance& radius)
       : PoseCells(poses, {radius.translation / std::numbers::sqrt2, parts_of_a_turn(radius.rotation)}) {}
 
   /// Those that can have poses near some of this one.
@@ -28,7 +28,7 @@ class PlanarCells : public PoseCells {
 /// The same of poses in space.
 class SpatialCells : public PoseGroups {
  public:
-  SpatialCells(std::span<const Pose3> poses, const PoseRadius& radius)
+  SpatialCells(std::span<const Pose3> poses, const PoseTolerance& radius)
       : PoseGroups(poses, radius), reach_{1.5 * radius.translation, 1.5 * radius.rotation} {}
 
   template <class Visit>
@@ -37,13 +37,13 @@ class SpatialCells : public PoseGroups {
   }
 
  private:
-  PoseRadius reach_;  ///< From a leader to what is near one of its members.
+  PoseTolerance reach_;  ///< From a leader to what is near one of its members.
 };
 
 template <class Pose, class Cells>
 class DensityLabels {
  public:
-  DensityLabels(std::span<const Pose> poses, std::span<const double> weights, const PoseRadius& radius,
+  DensityLabels(std::span<const Pose> poses, std::span<const double> weights, const PoseTolerance& radius,
                 double min_weight)
       : poses_(poses),
         weights_(weights),
@@ -65,7 +65,7 @@ class DensityLabels {
 
  private:
   [[nodiscard]] bool are_near(std::size_t i, std::size_t j) const {
-    return clustering::are_near(poses_[i], poses_[j], radius_);
+    return radius_.are_near(poses_[i], poses_[j]);
   }
 
   /// Notes the cores of a cell; they are near each other.
@@ -124,7 +124,7 @@ class DensityLabels {
 
   std::span<const Pose> poses_;
   std::span<const double> weights_;
-  PoseRadius radius_;
+  PoseTolerance radius_;
   double min_weight_;
   Cells cells_;
   std::vector<std::vector<std::size_t>> cores_;  ///< Of each cell, ascending.
@@ -134,12 +134,12 @@ class DensityLabels {
 }  // namespace
 
 std::vector<std::size_t> density_labels(std::span<const Pose2> poses, std::span<const double> weights,
-                                        const PoseRadius& radius, double min_weight) {
+                                        const PoseTolerance& radius, double min_weight) {
   return DensityLabels<Pose2, PlanarCells>(poses, weights, radius, min_weight).find();
 }
 
 std::vector<std::size_t> density_labels(std::span<const Pose3> poses, std::span<const double> weights,
-                                        const PoseRadius& radius, double min_weight) {
+                                        const PoseTolerance& radius, double min_weight) {
   return DensityLabels<Pose3, SpatialCells>(poses, weights, radius, min_weight).find();
 }
 

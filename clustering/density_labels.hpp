@@ -6,20 +6,9 @@
 #include <vector>
 
 #include "glocal/pose3.hpp"
+#include "glocal/pose_tolerance.hpp"
 
 namespace glocal::clustering {
-
-/// Poses are near each other if neither of these is exceeded.
-struct PoseRadius {
-  double translation = 0.1;  ///< m
-  double rotation = 0.1;     ///< rad
-};
-
-/// Neither is exceeded between two poses, which are both planar or both in space.
-template <class Pose>
-[[nodiscard]] bool are_near(const Pose& a, const Pose& b, const PoseRadius& radius) {
-  return distance(a, b) <= radius.translation && rotation_between(a, b) <= radius.rotation;
-}
 
 /// DBSCAN (Ester, Kriegel, Sander and Xu 1996): a pose is a core if those near it, itself included, weigh
 /// `min_weight` or more; cores near each other are in one cluster, and so are poses near a core. A pose near
@@ -31,9 +20,9 @@ template <class Pose>
 /// cost the square of their number. In space groups around a pose, of half the radius, stand in for cells.
 [[nodiscard]] std::vector<std::size_t> density_labels(std::span<const Pose2> poses,
                                                       std::span<const double> weights,
-                                                      const PoseRadius& radius, double min_weight);
+                                                      const PoseTolerance& radius, double min_weight);
 [[nodiscard]] std::vector<std::size_t> density_labels(std::span<const Pose3> poses,
                                                       std::span<const double> weights,
-                                                      const PoseRadius& radius, double min_weight);
+                                                      const PoseTolerance& radius, double min_weight);
 
 }  // namespace glocal::clustering

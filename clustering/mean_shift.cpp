@@ -18,12 +18,12 @@ constexpr double bandwidth_rotation_deg = 8.0;
 /// A kernel on SE(2) or SE(3): how much a pose weighs, seen from another one.
 struct Kernel {
   bool is_flat;
-  PoseRadius bandwidth;
+  PoseTolerance bandwidth;
 
   /// In bandwidths; what is farther away does not count.
   [[nodiscard]] double reach() const { return is_flat ? 1.0 : 3.0; }
   /// The same in metres and radians.
-  [[nodiscard]] PoseRadius radius() const {
+  [[nodiscard]] PoseTolerance radius() const {
     return {reach() * bandwidth.translation, reach() * bandwidth.rotation};
   }
   /// Of the squared distance in bandwidths.
@@ -46,11 +46,11 @@ Shift<Pose3> shift_between(const Pose3& from, const Pose3& to) {
   return shift;
 }
 
-double squared(const Shift<Pose2>& shift, const PoseRadius& unit) {
+double squared(const Shift<Pose2>& shift, const PoseTolerance& unit) {
   return (shift.x() * shift.x() + shift.y() * shift.y()) / (unit.translation * unit.translation) +
          shift.z() * shift.z() / (unit.rotation * unit.rotation);
 }
-double squared(const Shift<Pose3>& shift, const PoseRadius& unit) {
+double squared(const Shift<Pose3>& shift, const PoseTolerance& unit) {
   const double translation = shift.head<3>().norm() / unit.translation;
   const double rotation = shift.tail<3>().norm() / unit.rotation;
   return translation * translation + rotation * rotation;
@@ -99,21 +99,21 @@ Climbers<Pose> gather(const Together& together, std::span<const Pose> poses,
 }
 
 /// Poses sorted to find those within a radius of another one.
-PoseCells sorted(std::span<const Pose2> poses, const PoseRadius& radius) {
+PoseCells sorted(std::span<const Pose2> poses, const PoseTolerance& radius) {
   return {poses, {radius.translation, wide_parts_of_a_turn(radius.rotation)}};
 }
-PoseGroups sorted(std::span<const Pose3> poses, const PoseRadius& radius) {
+PoseGroups sorted(std::span<const Pose3> poses, const PoseTolerance& radius) {
   return {poses, radius};
 }
 
 /// Calls visit(number) for each cell or group that can have a pose within the radius they were sorted for.
 template <class Visit>
-void visit_around(const PoseCells& cells, const Pose2& pose, const PoseRadius& /*radius*/, Visit visit) {
+void visit_around(const PoseCells& cells, const Pose2& pose, const PoseTolerance& /*radius*/, Visit visit) {
   // Nothing within the radius is more than one cell away.
   cells.visit_near(cells.cell_of(pose), 1, 1, visit);
 }
 template <class Visit>
-void visit_around(const PoseGroups& groups, const Pose3& pose, const PoseRadius& radius, Visit visit) {
+void visit_around(const PoseGroups& groups, const Pose3& pose, const PoseTolerance& radius, Visit visit) {
   groups.visit_near(pose, radius, visit);
 }
 
@@ -187,7 +187,7 @@ void describe(ParamVisitor& v, MeanShift::Params& p) {
 
 std::vector<Cluster> MeanShift::cluster(const std::vector<Hypothesis>& hypotheses, Rng& /*rng*/) {
   const Kernel kernel{params_.kernel == "flat", {params_.bandwidth, radians(bandwidth_rotation_deg)}};
-  const PoseRadius near{0.25 * kernel.bandwidth.translation, 0.25 * kernel.bandwidth.rotation};
+  const PoseTolerance near{0.25 * kernel.bandwidth.translation, 0.25 * kernel.bandwidth.rotation};
   const std::vector<double> weights = supports(hypotheses);
   const auto labels = [&](const auto& together, const auto& poses) {
     return labels_of(together, std::span(poses), std::span(weights), kernel);

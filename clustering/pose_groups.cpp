@@ -5,7 +5,7 @@
 
 namespace glocal::clustering {
 
-PoseGroups::PoseGroups(std::span<const Pose3> poses, const PoseRadius& radius)
+PoseGroups::PoseGroups(std::span<const Pose3> poses, const PoseTolerance& radius)
     : half_{0.5 * radius.translation, 0.5 * radius.rotation}, side_(2.0 * radius.translation) {
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const std::size_t none = size();

@@ -8,9 +8,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "clustering/density_labels.hpp"
 #include "glocal/pose3.hpp"
 #include "glocal/pose_cells.hpp"
+#include "glocal/pose_tolerance.hpp"
 
 namespace glocal::clustering {
 
@@ -19,7 +19,7 @@ namespace glocal::clustering {
 /// grid of rotations to be cut into equal cells, so leaders are found by their place alone and then compared.
 class PoseGroups {
  public:
-  PoseGroups(std::span<const Pose3> poses, const PoseRadius& radius);
+  PoseGroups(std::span<const Pose3> poses, const PoseTolerance& radius);
 
   /// How many groups there are; they are numbered from 0 on, in the order of their leaders.
   [[nodiscard]] std::size_t size() const { return members_.size(); }
@@ -30,7 +30,7 @@ class PoseGroups {
   /// Calls visit(number) for each group that can have a pose within `reach` of this one, in a fixed order,
   /// until it returns false. `reach` is at most one and a half times the radius.
   template <class Visit>
-  void visit_near(const Pose3& pose, const PoseRadius& reach, Visit visit) const {
+  void visit_near(const Pose3& pose, const PoseTolerance& reach, Visit visit) const {
     visit_leaders(pose, {reach.translation + half_.translation, reach.rotation + half_.rotation}, visit);
   }
 
@@ -44,19 +44,19 @@ class PoseGroups {
 
   /// Those within `reach`, at most the side of a cell.
   template <class Visit>
-  void visit_leaders(const Pose3& pose, const PoseRadius& reach, Visit visit) const {
+  void visit_leaders(const Pose3& pose, const PoseTolerance& reach, Visit visit) const {
     const Cell centre = cell_of(pose);
     for (std::int64_t k = 0; k < 27; ++k) {
       const auto found =
           groups_in_.find({centre[0] + k / 9 - 1, centre[1] + k / 3 % 3 - 1, centre[2] + k % 3 - 1});
       if (found == groups_in_.end()) continue;
       for (const std::size_t group : found->second) {
-        if (are_near(leaders_[group], pose, reach) && !visit(group)) return;
+        if (reach.are_near(leaders_[group], pose) && !visit(group)) return;
       }
     }
   }
 
-  PoseRadius half_;
+  PoseTolerance half_;
   double side_;  ///< Of a cell, m.
   std::vector<Pose3> leaders_;
   std::vector<std::vector<std::size_t>> members_;

@@ -19,7 +19,7 @@ class Groups : public testing::Test {
       poses_.push_back(h.map_from_robot);
   }
   std::vector<Pose3> poses_;
-  PoseRadius radius_{0.2, 0.3};
+  PoseTolerance radius_{0.2, 0.3};
 };
 
 TEST_F(Groups, EachPoseIsInOneWithOthersNearIt) {
@@ -32,7 +32,7 @@ TEST_F(Groups, EachPoseIsInOneWithOthersNearIt) {
     EXPECT_EQ(groups.leader(g), poses_[members.front()]);
     for (const std::size_t i : members) {
       ++seen[i];
-      for (const std::size_t j : members) EXPECT_TRUE(are_near(poses_[i], poses_[j], radius_));
+      for (const std::size_t j : members) EXPECT_TRUE(radius_.are_near(poses_[i], poses_[j]));
     }
   }
   EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), 500);
@@ -41,7 +41,7 @@ TEST_F(Groups, EachPoseIsInOneWithOthersNearIt) {
 
 TEST_F(Groups, NothingWithinReachIsMissed) {
   const PoseGroups groups(poses_, radius_);
-  const PoseRadius reach{1.5 * radius_.translation, 1.5 * radius_.rotation};
+  const PoseTolerance reach{1.5 * radius_.translation, 1.5 * radius_.rotation};
   for (std::size_t i = 0; i < poses_.size(); i += 7) {
     std::set<std::size_t> found;
     groups.visit_near(poses_[i], reach, [&](std::size_t g) {
@@ -49,7 +49,7 @@ TEST_F(Groups, NothingWithinReachIsMissed) {
       return true;
     });
     for (std::size_t j = 0; j < poses_.size(); ++j) {
-      if (are_near(poses_[i], poses_[j], reach)) {
+      if (reach.are_near(poses_[i], poses_[j])) {
         EXPECT_TRUE(found.contains(j)) << i << ", " << j;
       }
     }
