@@ -1,7 +1,6 @@
 #include "glocal/cloud_resolution.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "glocal/voxel_filter.hpp"
 

@@ -5,10 +5,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstddef>
 #include <memory>
 #include <optional>
-#include <vector>
 
 #include "glocal/catalog.hpp"
 #include "glocal/cloud_resolution.hpp"

@@ -1,7 +1,6 @@
 #include "octomap_map.hpp"
 
 #include <Eigen/Geometry>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 

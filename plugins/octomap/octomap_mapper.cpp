@@ -1,7 +1,5 @@
 #include "octomap_mapper.hpp"
 
-#include <cmath>
-
 #include "tree_file.hpp"
 
 namespace glocal::octomap_plugin {

@@ -3,7 +3,6 @@
 
 #include <pcl/search/kdtree.h>
 
-#include <cstddef>
 #include <memory>
 #include <optional>
 #include <vector>

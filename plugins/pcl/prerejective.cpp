@@ -4,7 +4,6 @@
 #include <pcl/registration/transformation_estimation_2D.h>
 
 #include <Eigen/Eigenvalues>
-#include <algorithm>
 #include <vector>
 
 namespace glocal::pcl_plugin {

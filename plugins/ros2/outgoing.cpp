@@ -1,7 +1,5 @@
 #include "outgoing.hpp"
 
-#include <cstring>
-
 namespace glocal::ros2_plugin {
 namespace {
 

@@ -4,7 +4,6 @@
 #include <zstd.h>
 
 #include <algorithm>
-#include <concepts>
 #include <limits>
 #include <utility>
 

@@ -2,7 +2,6 @@
 // ROS 1 and 2 share but for the header's sequence number.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>

@@ -1,7 +1,6 @@
 // What robots have recorded, in their own formats: ROS 1 bags, ROS 2 bags (SQLite) and MCAP.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>

@@ -1,8 +1,6 @@
 // A global map from the reference poses of a log.
 #pragma once
 
-#include <string>
-
 #include "glocal/catalog.hpp"
 #include "glocal/strategies.hpp"
 #include "sources/carmen/log_drive.hpp"

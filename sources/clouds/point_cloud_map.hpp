@@ -1,8 +1,6 @@
 // Maps that are clouds of points.
 #pragma once
 
-#include <string>
-
 #include "glocal/catalog.hpp"
 #include "glocal/strategies.hpp"
 #include "sources/clouds/cloud.hpp"

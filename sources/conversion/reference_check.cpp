@@ -1,7 +1,5 @@
 #include "sources/conversion/reference_check.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,6 +1,5 @@
 #include "sources/disturbed/surroundings.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>

@@ -1,7 +1,6 @@
 // The map that a robot's map server sends, and maps as it would send them.
 #pragma once
 
-#include <memory>
 #include <string>
 
 #include "glocal/catalog.hpp"

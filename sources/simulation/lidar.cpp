@@ -1,7 +1,6 @@
 #include "sources/simulation/lidar.hpp"
 
 #include <cmath>
-#include <cstddef>
 #include <numbers>
 #include <utility>
 

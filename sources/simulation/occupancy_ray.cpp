@@ -1,7 +1,5 @@
 #include "sources/simulation/occupancy_ray.hpp"
 
-#include <algorithm>
-
 #include "sources/grid_ray.hpp"
 
 namespace glocal::simulation {

@@ -1,7 +1,6 @@
 // Settings whose values are drawn from ranges.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "config/variants.hpp"

@@ -2,7 +2,6 @@
 
 #include <elf.h>
 
-#include <array>
 #include <cstdint>
 #include <cstring>
 #include <fstream>

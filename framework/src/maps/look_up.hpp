@@ -2,7 +2,6 @@
 // compiled for each instruction set and chosen when the program runs; answers are the same for all.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 
