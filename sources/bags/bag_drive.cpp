@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
-bags::DriveTopics topics_of(const BagDrive::Params& params) {
+DriveTopics topics_of(const BagDrive::Params& params) {
   return {.scans = params.scans,
           .odometry = params.odometry,
           .odom_frame = params.odom_frame,
@@ -26,7 +26,7 @@ bags::DriveTopics topics_of(const BagDrive::Params& params) {
           .sensor_is_given = params.sensor_from == "given"};
 }
 
-bags::PlacingRule placing_rule(const BagDrive::Params& params, bool is_planar) {
+PlacingRule placing_rule(const BagDrive::Params& params, bool is_planar) {
   return {.heights = params.heights,
           .is_deskewed = params.deskew == "odometry",
           .is_planar = is_planar,
@@ -108,14 +108,14 @@ BagDrive::BagDrive(const Params& params, const SourceSetup& setup)
     : params_(params),
       is_planar_(setup.motion == Motion::planar),
       warn_(setup.warn),
-      recording_(params.path.resolved, bags::damage_if(params.strict)),
+      recording_(params.path.resolved, damage_if(params.strict)),
       placer_(placing_rule(params, setup.motion == Motion::planar), contents_) {
   recording_.tell_progress(setup.progress);
   const std::string file = params.path.resolved.string();
-  contents_ = bags::read_contents(recording_, topics_of(params), file, warn_);
+  contents_ = read_contents(recording_, topics_of(params), file, warn_);
   for (const auto& input : recording_.inputs()) setup.note_input(input);
   const bool has_clouds = std::any_of(contents_.scans.begin(), contents_.scans.end(),
-                                      [](const bags::ScanTopic& scan) { return scan.are_clouds; });
+                                      [](const ScanTopic& scan) { return scan.are_clouds; });
   if (is_planar_ && has_clouds && params.heights.empty()) {
     throw ConfigError(file, clouds_need_heights);
   }
@@ -123,13 +123,13 @@ BagDrive::BagDrive(const Params& params, const SourceSetup& setup)
   join_other_topics();
   warn_of_references();
   std::set<std::string> topics;
-  for (const bags::ScanTopic& scan : contents_.scans) topics.insert(scan.topic);
+  for (const ScanTopic& scan : contents_.scans) topics.insert(scan.topic);
   recording_.rewind(topics);
   read_.assign(contents_.scans.size(), 0);
 }
 
 std::vector<BagDrive::Frame> BagDrive::frames_of_first_topic() {
-  const bags::ScanTopic& scans = contents_.scans.front();
+  const ScanTopic& scans = contents_.scans.front();
   const std::string at = fmt::format("{}: {}", params_.path.resolved.string(), shown(scans.topic));
   std::vector<Frame> frames;
   std::size_t backwards = 0, lost = 0;
@@ -250,13 +250,13 @@ std::optional<Sample> BagDrive::next() {
   return std::nullopt;
 }
 
-void BagDrive::take(const bags::RecordedMessage& message) {
+void BagDrive::take(const RecordedMessage& message) {
   const auto& scans = contents_.scans;
-  const auto topic = std::find_if(scans.begin(), scans.end(), [&](const bags::ScanTopic& scan) {
-    return scan.topic == message.connection->topic && bags::has_scans(message.connection->type);
+  const auto topic = std::find_if(scans.begin(), scans.end(), [&](const ScanTopic& scan) {
+    return scan.topic == message.connection->topic && has_scans(message.connection->type);
   });
   if (topic == scans.end()) return;
-  const auto header = bags::readable_header(message);
+  const auto header = readable_header(message);
   if (!header) return;  // Nor was it counted when the contents were read.
   const auto t = static_cast<std::size_t>(topic - scans.begin());
   const auto frames = wanted_.find({t, read_[t]++});
@@ -269,16 +269,16 @@ void BagDrive::take(const bags::RecordedMessage& message) {
   }
 }
 
-std::optional<bags::SensorScan> BagDrive::rays_of(const bags::RecordedMessage& message) {
+std::optional<SensorScan> BagDrive::rays_of(const RecordedMessage& message) {
   try {
-    return bags::read_rays(message, {.max_range = params_.max_range, .voxel_size = params_.voxel_size});
+    return read_rays(message, {.max_range = params_.max_range, .voxel_size = params_.voxel_size});
   } catch (const ConfigError& error) {
     warn_once(fmt::format("a scan of {} is left out: {}", shown(message.connection->topic), error.what()));
     return std::nullopt;
   }
 }
 
-bool BagDrive::add(const bags::SensorScan& rays, const bags::Header& header, const Frame& frame, Scan& scan) {
+bool BagDrive::add(const SensorScan& rays, const Header& header, const Frame& frame, Scan& scan) {
   if (placer_.add(rays, header, frame.stamp_ns, frame.scans, scan)) return true;
   warn_once(
       fmt::format("the scan at {:.3f} s is left out, as it is not known where the robot was until its end",

@@ -80,19 +80,19 @@ class BagDrive final : public ObservationSource {
   void join_other_topics();
   void warn_of_references() const;
   [[nodiscard]] std::optional<Pose3> reference_at(std::int64_t stamp_ns) const;
-  void take(const bags::RecordedMessage& message);
-  [[nodiscard]] std::optional<bags::SensorScan> rays_of(const bags::RecordedMessage& message);
+  void take(const RecordedMessage& message);
+  [[nodiscard]] std::optional<SensorScan> rays_of(const RecordedMessage& message);
   /// Adds a message's rays to the scan of a frame; false if they cannot be placed.
-  bool add(const bags::SensorScan& rays, const bags::Header& header, const Frame& frame, Scan& scan);
+  bool add(const SensorScan& rays, const Header& header, const Frame& frame, Scan& scan);
   void warn_once(const std::string& text);
 
   Params params_;
   bool is_planar_;
   Warn warn_;
   bool has_warned_ = false;
-  bags::Recording recording_;
-  bags::DriveContents contents_;
-  bags::ScanPlacer placer_;
+  Recording recording_;
+  DriveContents contents_;
+  ScanPlacer placer_;
   std::vector<Frame> frames_;
   /// Which frames want a message: by topic, and its number there.
   std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> wanted_;

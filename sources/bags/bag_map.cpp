@@ -25,9 +25,9 @@ constexpr const char* grid_type = "nav_msgs/OccupancyGrid";
   throw ConfigError(params.path.resolved, message);
 }
 
-std::string topic_of(const bags::Recording& recording, const BagMap::Params& params) {
+std::string topic_of(const Recording& recording, const BagMap::Params& params) {
   std::set<std::string> topics;
-  for (const bags::Connection& connection : recording.connections()) {
+  for (const Connection& connection : recording.connections()) {
     if (connection.type == grid_type) topics.insert(connection.topic);
   }
   if (topics.empty())
@@ -40,12 +40,11 @@ std::string topic_of(const bags::Recording& recording, const BagMap::Params& par
   return params.topic.empty() ? *topics.begin() : params.topic;
 }
 
-bags::GridMessage last_grid(bags::Recording& recording, const std::string& topic,
-                            const BagMap::Params& params) {
-  std::optional<bags::GridMessage> last;
+GridMessage last_grid(Recording& recording, const std::string& topic, const BagMap::Params& params) {
+  std::optional<GridMessage> last;
   recording.rewind(std::set{topic});
   while (const auto message = recording.next()) {
-    if (message->connection->type == grid_type) last = bags::read_occupancy_grid(*message);
+    if (message->connection->type == grid_type) last = read_occupancy_grid(*message);
   }
   if (!last) fail(params, fmt::format("has no message on {}", shown(topic)));
   return std::move(*last);
@@ -74,11 +73,11 @@ void describe(ParamVisitor& v, BagMap::Params& p) {
 }
 
 MapData BagMap::load() {
-  bags::Recording recording(params_.path.resolved, bags::damage_if(params_.strict));
+  Recording recording(params_.path.resolved, damage_if(params_.strict));
   recording.tell_progress(setup_.progress);
   for (const auto& input : recording.inputs()) setup_.note_input(input);
   const std::string topic = topic_of(recording, params_);
-  const bags::GridMessage grid = last_grid(recording, topic, params_);
+  const GridMessage grid = last_grid(recording, topic, params_);
   for (const std::string& warning : recording.warnings()) setup_.warn(warning);
   return map_of(grid, params_.path.resolved.string(), topic);
 }
