@@ -12,13 +12,6 @@
 #include "glocal/error.hpp"
 
 namespace glocal::bags {
-namespace {
-
-[[noreturn]] void refuse_open(const std::string& file) {
-  throw ConfigError(file, std::string("cannot be opened: ") + std::strerror(errno));
-}
-
-}  // namespace
 
 void Place::refuse(std::size_t at, const std::string& message) const {
   std::string where = fmt::format("byte {}", offset + at);
@@ -29,7 +22,7 @@ void Place::refuse(std::size_t at, const std::string& message) const {
 
 FileBytes::FileBytes(const std::filesystem::path& file)
     : name_(file.string()), descriptor_(open(file.c_str(), O_RDONLY | O_CLOEXEC)) {
-  if (descriptor_ < 0) refuse_open(name_);
+  if (descriptor_ < 0) throw ConfigError(name_, std::string("cannot be opened: ") + std::strerror(errno));
   struct stat status {};
   if (fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) {
     close(descriptor_);
