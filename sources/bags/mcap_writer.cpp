@@ -120,6 +120,14 @@ void McapWriter::write(std::uint16_t channel, std::int64_t stamp_ns, std::string
   if (chunk_.size() >= chunk_size) end_chunk();
 }
 
+void McapWriter::write(const std::string& topic, const std::string& type, std::int64_t stamp_ns,
+                       std::string_view message) {
+  auto channel = topic_channels_.find(topic);
+  if (channel == topic_channels_.end())
+    channel = topic_channels_.emplace(topic, add_channel(topic, type, definition_of(type))).first;
+  write(channel->second, stamp_ns, message);
+}
+
 void McapWriter::end_chunk() {
   if (chunk_.empty()) return;
   const std::string packed = compressed(chunk_);

@@ -25,6 +25,9 @@ class McapWriter {
   std::uint16_t add_channel(const std::string& topic, const std::string& type, const std::string& definition);
   /// A message and its stamp, ns since 1970.
   void write(std::uint16_t channel, std::int64_t stamp_ns, std::string_view message);
+  /// The same of a topic; the first message of each adds its channel.
+  void write(const std::string& topic, const std::string& type, std::int64_t stamp_ns,
+             std::string_view message);
   /// To be called once, at the end.
   void finish();
 
@@ -49,9 +52,10 @@ class McapWriter {
   std::uint32_t crc_ = 0;           ///< Of the data section, then of the summary.
   std::string schemas_, channels_;  ///< Their records.
   std::map<std::string, std::uint16_t> schema_ids_;
-  std::map<std::uint16_t, std::uint64_t> messages_;  ///< Of each channel.
-  std::string chunk_;                                ///< Records that wait for their chunk.
-  std::uint64_t first_ns_ = 0, last_ns_ = 0;         ///< Of the chunk's messages.
+  std::map<std::string, std::uint16_t> topic_channels_;  ///< Of topics written by name.
+  std::map<std::uint16_t, std::uint64_t> messages_;      ///< Of each channel.
+  std::string chunk_;                                    ///< Records that wait for their chunk.
+  std::uint64_t first_ns_ = 0, last_ns_ = 0;             ///< Of the chunk's messages.
   std::map<std::uint16_t, std::vector<IndexEntry>> chunk_entries_;
   std::vector<ChunkIndex> chunks_;
 };

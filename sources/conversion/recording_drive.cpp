@@ -9,7 +9,6 @@
 #include "glocal/error.hpp"
 #include "glocal/words.hpp"
 #include "sources/bags/cdr_writer.hpp"
-#include "sources/bags/message_definitions.hpp"
 #include "sources/bags/message_reader.hpp"
 #include "sources/bags/scan_placer.hpp"
 
@@ -86,37 +85,29 @@ void RecordingDriveReader::warn_of_lost() {
 McapDriveWriter::McapDriveWriter(std::vector<DriveSensor> sensors, bags::McapWriter::Sink sink)
     : sensors_(std::move(sensors)), writer_(std::move(sink)) {}
 
-void McapDriveWriter::send(const std::string& topic, const std::string& type, std::int64_t stamp_ns,
-                           const std::string& message) {
-  auto channel = channels_.find(topic);
-  if (channel == channels_.end())
-    channel = channels_.emplace(topic, writer_.add_channel(topic, type, bags::definition_of(type))).first;
-  writer_.write(channel->second, stamp_ns, message);
-}
-
-void McapDriveWriter::send_fixed_poses(std::int64_t stamp_ns) {
+void McapDriveWriter::write_fixed_poses(std::int64_t stamp_ns) {
   std::vector<bags::FrameTransform> fixed;
   for (const DriveSensor& sensor : sensors_) {
     if (sensor.robot_from_sensor)
       fixed.push_back({{stamp_ns, base_frame}, sensor.frame, *sensor.robot_from_sensor});
   }
-  if (!fixed.empty()) send("/tf_static", "tf2_msgs/TFMessage", stamp_ns, bags::serialized(fixed));
+  if (!fixed.empty()) writer_.write("/tf_static", "tf2_msgs/TFMessage", stamp_ns, bags::serialized(fixed));
 }
 
 void McapDriveWriter::write(const DriveScan& scan) {
-  if (channels_.empty()) send_fixed_poses(scan.stamp_ns);
+  if (!std::exchange(has_begun_, true)) write_fixed_poses(scan.stamp_ns);
   const DriveSensor& sensor = sensors_[scan.sensor];
   std::vector<bags::FrameTransform> moving = {
       {{scan.stamp_ns, odom_frame}, base_frame, scan.odom_from_robot}};
   if (!sensor.robot_from_sensor)
     moving.push_back({{scan.stamp_ns, base_frame}, sensor.frame, scan.robot_from_sensor});
-  send("/tf", "tf2_msgs/TFMessage", scan.stamp_ns, bags::serialized(moving));
+  writer_.write("/tf", "tf2_msgs/TFMessage", scan.stamp_ns, bags::serialized(moving));
   if (scan.map_from_robot)
-    send("/reference", "geometry_msgs/PoseStamped", scan.stamp_ns,
-         bags::serialized(bags::StampedFramePose{{scan.stamp_ns, "map"}, *scan.map_from_robot, {}}));
+    writer_.write("/reference", "geometry_msgs/PoseStamped", scan.stamp_ns,
+                  bags::serialized(bags::StampedFramePose{{scan.stamp_ns, "map"}, *scan.map_from_robot, {}}));
   const std::string type = sensor.has_clouds ? "sensor_msgs/PointCloud2" : "sensor_msgs/LaserScan";
-  send(sensor.topic, type, scan.stamp_ns,
-       std::visit([](const auto& rays) { return bags::serialized(rays); }, scan.rays));
+  writer_.write(sensor.topic, type, scan.stamp_ns,
+                std::visit([](const auto& rays) { return bags::serialized(rays); }, scan.rays));
 }
 
 }  // namespace glocal::conversion

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,14 +48,11 @@ class McapDriveWriter final : public DriveWriter {
   void finish() override { writer_.finish(); }
 
  private:
-  /// A channel is made when it is first needed.
-  void send(const std::string& topic, const std::string& type, std::int64_t stamp_ns,
-            const std::string& message);
-  void send_fixed_poses(std::int64_t stamp_ns);
+  void write_fixed_poses(std::int64_t stamp_ns);
 
   std::vector<DriveSensor> sensors_;
   bags::McapWriter writer_;
-  std::map<std::string, std::uint16_t> channels_;
+  bool has_begun_ = false;
 };
 
 }  // namespace glocal::conversion

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "glocal/error.hpp"
-#include "sources/bags/message_definitions.hpp"
 
 namespace glocal::live {
 namespace {
@@ -37,14 +36,7 @@ LiveRecorder::~LiveRecorder() {
 }
 
 void LiveRecorder::write(const LiveTopic& topic, std::int64_t stamp_ns, std::string_view bytes) {
-  attempt([&] {
-    auto channel = channels_.find(topic.name);
-    if (channel == channels_.end()) {
-      const std::uint16_t id = writer_.add_channel(topic.name, topic.type, bags::definition_of(topic.type));
-      channel = channels_.emplace(topic.name, id).first;
-    }
-    writer_.write(channel->second, stamp_ns, bytes);
-  });
+  attempt([&] { writer_.write(topic.name, topic.type, stamp_ns, bytes); });
 }
 
 void LiveRecorder::attempt(const std::function<void()>& work) {

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <map>
 #include <string>
 #include <string_view>
 
@@ -37,7 +36,6 @@ class LiveRecorder {
   bool is_whole_ = true;
   std::ofstream file_;
   bags::McapWriter writer_;
-  std::map<std::string, std::uint16_t> channels_;  ///< By topic.
 };
 
 }  // namespace glocal::live
