@@ -64,9 +64,9 @@ std::vector<std::string> cloud_remarks(const Cloud& cloud) {
   double extent = 0.0;
   float reach = 0.0F;
   for (const auto* axis : {&cloud.points.x, &cloud.points.y, &cloud.points.z}) {
-    const auto [low, high] = extent_of(*axis);
-    extent = std::max(extent, static_cast<double>(high) - static_cast<double>(low));
-    reach = std::max({reach, std::abs(low), std::abs(high)});
+    const Extent along = extent_of(*axis);
+    extent = std::max(extent, along.length());
+    reach = std::max({reach, std::abs(along.low), std::abs(along.high)});
   }
   // Few sites are larger in metres, and few rooms smaller in millimetres.
   constexpr double largest_site_m = 2000.0;

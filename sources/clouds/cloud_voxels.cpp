@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "glocal/error.hpp"
+#include "glocal/extent.hpp"
 #include "sources/grid_ray.hpp"
 
 namespace glocal::clouds {
@@ -14,12 +14,10 @@ namespace glocal::clouds {
 CloudVoxels::CloudVoxels(const Cloud& cloud, double side, const std::string& file)
     : side_(cloud.voxel_size > 0.0 ? cloud.voxel_size : side) {
   const Points& points = cloud.points;
-  const auto lowest = [&](const std::vector<float>& v) { return *std::min_element(v.begin(), v.end()); };
-  const auto cubes = [&](const std::vector<float>& v) {
-    return std::floor((*std::max_element(v.begin(), v.end()) - lowest(v)) / side_) + 1.0;
-  };
+  const Extent x = extent_of(points.x), y = extent_of(points.y), z = extent_of(points.z);
+  const auto cubes = [&](const Extent& along) { return std::floor((along.high - along.low) / side_) + 1.0; };
   constexpr double most_cubes = 4e9;
-  if (!(cubes(points.x) * cubes(points.y) * cubes(points.z) <= most_cubes)) {
+  if (!(cubes(x) * cubes(y) * cubes(z) <= most_cubes)) {
     throw ConfigError(
         file, fmt::format("its extent is more than 4000 million cubes of {} m; cut it smaller, or, if it "
                           "is no octree, raise cloud_voxel_size",
@@ -27,10 +25,9 @@ CloudVoxels::CloudVoxels(const Cloud& cloud, double side, const std::string& fil
   }
   // Points of an octree lie in the middle of its voxels.
   const double margin = cloud.voxel_size / 2.0;
-  corner_ = {lowest(points.x) - margin, lowest(points.y) - margin, lowest(points.z) - margin};
+  corner_ = {x.low - margin, y.low - margin, z.low - margin};
   // One more than needed, as the farthest point may be rounded into the next.
-  size_ = {static_cast<int>(cubes(points.x)) + 1, static_cast<int>(cubes(points.y)) + 1,
-           static_cast<int>(cubes(points.z)) + 1};
+  size_ = {static_cast<int>(cubes(x)) + 1, static_cast<int>(cubes(y)) + 1, static_cast<int>(cubes(z)) + 1};
   occupied_.resize(index_of({size_[0] - 1, size_[1] - 1, size_[2] - 1}) + 1);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto at = in_cubes({points.x[i], points.y[i], points.z[i]});

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "glocal/extent.hpp"
+
 namespace glocal::disturbed {
 namespace {
 
@@ -50,11 +52,11 @@ std::vector<std::vector<CellAt>> components_of(const OccupancyGrid& grid) {
 }
 
 /// The cells of a component at its ends.
-struct Extent {
+struct Ends {
   CellAt least, most;
 };
 
-Extent extent_of(const std::vector<CellAt>& component) {
+Ends ends_of(const std::vector<CellAt>& component) {
   const auto [left, right] = std::minmax_element(component.begin(), component.end(),
                                                  [](CellAt a, CellAt b) { return a.column < b.column; });
   const auto [low, high] = std::minmax_element(component.begin(), component.end(),
@@ -66,7 +68,7 @@ Extent extent_of(const std::vector<CellAt>& component) {
 std::vector<std::vector<CellAt>> some_furniture(const OccupancyGrid& grid, double share, Rng& rng) {
   std::vector<std::vector<CellAt>> chosen;
   for (std::vector<CellAt>& component : components_of(grid)) {
-    const auto [least, most] = extent_of(component);
+    const auto [least, most] = ends_of(component);
     const bool is_furniture = (most.column - least.column + 1) * grid.resolution <= largest_furniture &&
                               (most.row - least.row + 1) * grid.resolution <= largest_furniture;
     if (is_furniture && rng.uniform() < share) chosen.push_back(std::move(component));
@@ -113,7 +115,7 @@ void leave_legs(MapData& map, double share, Rng& rng) {
   OccupancyGrid& grid = map.grid;
   const int cells = std::max(1, static_cast<int>(std::lround(leg / grid.resolution)));
   for (const std::vector<CellAt>& component : some_furniture(grid, share, rng)) {
-    const auto [least, most] = extent_of(component);
+    const auto [least, most] = ends_of(component);
     for (const CellAt at : component) {
       const bool is_leg = std::min(at.column - least.column, most.column - at.column) < cells &&
                           std::min(at.row - least.row, most.row - at.row) < cells;
@@ -179,8 +181,8 @@ void drop_walls(MapData& map, double share, Rng& rng) {
 
 /// What lies in the last share of the map's length along x was never mapped.
 void cut_off(MapData& map, double share, Rng& /*rng*/) {
-  const auto [low, high] = std::minmax_element(map.points.x.begin(), map.points.x.end());
-  const double end = *high - share * (static_cast<double>(*high) - *low);
+  const Extent along_x = extent_of(map.points.x);
+  const double end = along_x.high - share * along_x.length();
   keep_if(map, Cell::unknown, [&](double x, double /*y*/) { return x <= end; });
 }
 
@@ -226,15 +228,10 @@ void coarsen(MapData& map, double factor, Rng& /*rng*/) {
   take_points_of_cells(map);
 }
 
-double middle_of(const std::vector<float>& along) {
-  const auto [low, high] = std::minmax_element(along.begin(), along.end());
-  return (static_cast<double>(*low) + *high) / 2.0;
-}
-
 /// What lies north of the middle of the points is moved east, by so many parts of a thousand of how far north
 /// it lies; cells follow their points.
 void shear(MapData& map, double per_mille, Rng& /*rng*/) {
-  const double y = middle_of(map.points.y);
+  const double y = extent_of(map.points.y).middle();
   for (std::size_t i = 0; i < map.points.size(); ++i)
     map.points.x[i] += static_cast<float>(per_mille / 1000.0 * (map.points.y[i] - y));
   take_cells_of_points(map);
@@ -243,7 +240,7 @@ void shear(MapData& map, double per_mille, Rng& /*rng*/) {
 /// The map is longer than the world, by so many parts of a thousand, about the middle of its points.
 void stretch_map(MapData& map, double per_mille, Rng& /*rng*/) {
   const double factor = 1.0 + per_mille / 1000.0;
-  const double x = middle_of(map.points.x), y = middle_of(map.points.y);
+  const double x = extent_of(map.points.x).middle(), y = extent_of(map.points.y).middle();
   for (float& px : map.points.x) px = static_cast<float>(x + factor * (px - x));
   for (float& py : map.points.y) py = static_cast<float>(y + factor * (py - y));
   map.grid.map_from_grid.x = x + factor * (map.grid.map_from_grid.x - x);

@@ -44,12 +44,11 @@ DistanceField::DistanceField(const Points& points, double resolution, double rea
     : scale_(static_cast<float>(1.0 / resolution)),
       reach_(static_cast<float>(reach)),
       step_(reach_ / static_cast<float>(beyond_reach)) {
-  const auto [min_x, max_x] = std::minmax_element(points.x.begin(), points.x.end());
-  const auto [min_y, max_y] = std::minmax_element(points.y.begin(), points.y.end());
-  min_x_ = *min_x - reach_;
-  min_y_ = *min_y - reach_;
-  const double columns = std::ceil((double{*max_x} - *min_x + 2.0 * reach) / resolution) + 2.0;
-  const double rows = std::ceil((double{*max_y} - *min_y + 2.0 * reach) / resolution) + 2.0;
+  const Extent x = extent_of(points.x), y = extent_of(points.y);
+  min_x_ = x.low - reach_;
+  min_y_ = y.low - reach_;
+  const double columns = std::ceil((x.length() + 2.0 * reach) / resolution) + 2.0;
+  const double rows = std::ceil((y.length() + 2.0 * reach) / resolution) + 2.0;
   constexpr double most_tiles = 67108864.0;  // whose numbers take a quarter of a GiB
   if (!(columns * rows <= most_tiles * tile_side * tile_side)) refuse_size();
   columns_ = static_cast<int>(columns);
