@@ -74,8 +74,7 @@ void SurfaceMap::add(const Points& hits, const Point& sensor, double way) {
     if (seen_[index].hits < static_cast<std::uint32_t>(params_.cell_hits)) {
       const auto share = 1.0F / static_cast<float>(++seen_[index].hits);
       const Point mean = map_.points[index];
-      map_.points.set(index, {mean.x + share * (p.x - mean.x), mean.y + share * (p.y - mean.y),
-                              mean.z + share * (p.z - mean.z)});
+      map_.points.set(index, mean + share * (p - mean));
       changed.push_back(index);
     }
   }
@@ -197,10 +196,9 @@ void SurfaceMap::update_normals(const std::vector<std::size_t>& points, const Po
       const Point before = map_.normals[i];
       const Point p = map_.points[i];
       const bool had_one = before != Point{};
-      const Point towards = had_one ? before : Point{sensor.x - p.x, sensor.y - p.y, sensor.z - p.z};
+      const Point towards = had_one ? before : sensor - p;
       const Point n = normal_at(p, around);
-      const bool is_turned = n.x * towards.x + n.y * towards.y + n.z * towards.z < 0.0F;
-      map_.normals.set(i, is_turned ? Point{-n.x, -n.y, -n.z} : n);
+      map_.normals.set(i, dot(n, towards) < 0.0F ? -1.0F * n : n);
     }
   }
 }

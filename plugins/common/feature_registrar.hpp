@@ -20,8 +20,8 @@ class FeatureRegistrar final : public CloudRegistrar {
   [[nodiscard]] Registration find(const Points& source, const Points& target) override {
     Registration result;
     result.voxel_size = options_.voxel_size.value_or(double{cloud_resolution(source, target)});
-    const Cloud from = cloud_of(source, options_.source_seen_from, result.voxel_size);
-    const Cloud to = cloud_of(target, options_.target_seen_from, result.voxel_size);
+    const Cloud from{source, result.voxel_size, as_vector(options_.source_seen_from)};
+    const Cloud to{target, result.voxel_size, as_vector(options_.target_seen_from)};
     const auto found = search_.find(from, to, result.voxel_size, options_.seed);
     if (!found) {
       result.why = fmt::format("no pose: {} and {} voxels have points", from.size(), to.size());
@@ -37,10 +37,6 @@ class FeatureRegistrar final : public CloudRegistrar {
 
  private:
   using Cloud = typename Search::Cloud;
-
-  static Cloud cloud_of(const Points& points, const Point& seen_from, double voxel_size) {
-    return {points, voxel_size, {seen_from.x, seen_from.y, seen_from.z}};
-  }
 
   Search search_;
   RegistrationOptions options_;

@@ -109,8 +109,7 @@ void CloudBuilder::add_normal(const Vector3& normal) {
     cloud_.normals.clear();
     return;
   }
-  cloud_.normals.push_back({static_cast<float>(normal.x() / length), static_cast<float>(normal.y() / length),
-                            static_cast<float>(normal.z() / length)});
+  cloud_.normals.push_back(as_point(normal / length));
 }
 
 Cloud CloudBuilder::finish() {

@@ -44,9 +44,7 @@ int Readings::ring(const Reading& reading) const {
 void Readings::set_range(Reading& reading, float range) const {
   if (reading.range <= 0.0F) return;
   const float factor = std::max(range, 0.0F) / reading.range;
-  reading.end = {origin_.x + factor * (reading.end.x - origin_.x),
-                 origin_.y + factor * (reading.end.y - origin_.y),
-                 origin_.z + factor * (reading.end.z - origin_.z)};
+  reading.end = origin_ + factor * (reading.end - origin_);
   reading.range = std::max(range, 0.0F);
 }
 

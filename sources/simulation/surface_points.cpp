@@ -54,8 +54,7 @@ class SurfacePainter {
   }
 
   void add(const Position& place, double height) {
-    points_.push_back(
-        {static_cast<float>(place[0]), static_cast<float>(place[1]), static_cast<float>(floor_ + height)});
+    points_.push_back(as_point({place[0], place[1], floor_ + height}));
   }
 
   [[nodiscard]] const Points& points() const { return points_; }
