@@ -71,13 +71,10 @@ MapData PointCloudMap::load() {
     const VoxelGroups groups = voxel_groups(cloud.points, params_.voxel_size);
     map.points = means_of_groups(cloud.points, groups);
     map.normals = first_normals(cloud.normals, groups);
+    map.resolution = params_.voxel_size;
   } else {
     map.points = std::move(cloud.points);
     map.normals = std::move(cloud.normals);
-  }
-  if (params_.voxel_size > 0.0) {
-    map.resolution = params_.voxel_size;
-  } else {
     map.resolution = cloud.voxel_size > 0.0 ? cloud.voxel_size : typical_spacing(map.points);
   }
   if (!params_.trajectory.text.empty()) {
