@@ -30,10 +30,7 @@ Itinerary::Itinerary(const std::vector<Position>& way_points, int tour_legs, Rng
 }
 
 std::optional<Position> Itinerary::next() {
-  if (has_to_get_there_) {
-    has_to_get_there_ = false;
-    return way_points_[at_];
-  }
+  if (std::exchange(has_to_get_there_, false)) return way_points_[at_];
   if (is_tour_ ? legs_left_ == 0 : at_ + 1 == way_points_.size()) return std::nullopt;
   at_ = is_tour_ ? next_of_tour() : at_ + 1;
   return way_points_[at_];
