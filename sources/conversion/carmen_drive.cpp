@@ -27,8 +27,7 @@ std::optional<Pose3> fixed_pose(const std::vector<CarmenScan>& scans, bool rear)
     if ((scan.laser == CarmenLaser::rlaser) != rear) continue;
     const Pose2& pose = scan.robot_from_laser;
     if (!first) first = pose;
-    if (distance(pose, *first) > tolerance || std::abs(wrap_angle(pose.theta - first->theta)) > tolerance)
-      return std::nullopt;
+    if (distance(pose, *first) > tolerance || rotation_between(pose, *first) > tolerance) return std::nullopt;
   }
   return first ? std::optional<Pose3>(*first) : std::nullopt;
 }
