@@ -56,7 +56,7 @@ template <class Interface>
 using Made = std::function<std::unique_ptr<Interface>(int threads)>;
 
 bool are_equal(const std::vector<Hypothesis>& a, const std::vector<Hypothesis>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Hypothesis& p, const Hypothesis& q) {
+  return std::ranges::equal(a, b, [](const Hypothesis& p, const Hypothesis& q) {
     return p.map_from_local == q.map_from_local && p.quality == q.quality && p.score == q.score &&
            p.support == q.support;
   });
@@ -174,10 +174,9 @@ void try_clusterer(const Made<Clusterer>& make, Findings& findings) {
     const auto clusterer = make(1);
     const auto first = answer(*clusterer);
     const auto again = answer(*clusterer);
-    const bool same = std::equal(first.begin(), first.end(), again.begin(), again.end(),
-                                 [](const Cluster& a, const Cluster& b) {
-                                   return a.members == b.members && a.map_from_robot == b.map_from_robot;
-                                 });
+    const bool same = std::ranges::equal(first, again, [](const Cluster& a, const Cluster& b) {
+      return a.members == b.members && a.map_from_robot == b.map_from_robot;
+    });
     require(same, "the same random state gives other clusters");
   });
   findings.check("no hypotheses", [&] {
@@ -228,7 +227,7 @@ void try_threshold(const Made<ThresholdPolicy>& make, Findings& findings) {
   });
 }
 
-bool are_equal(const Verdict& a, const Verdict& b) {
+bool is_same_verdict(const Verdict& a, const Verdict& b) {
   using Estimate = std::optional<std::pair<Pose3, double>>;
   const auto estimate = [](const Verdict& v) {
     return v.estimate ? Estimate({v.estimate->map_from_robot, v.estimate->confidence}) : Estimate();
@@ -262,8 +261,7 @@ void try_verdict_rule(const Made<VerdictRule>& make, Findings& findings) {
     };
     const std::vector<Verdict> first = drive();
     const std::vector<Verdict> again = drive();
-    require(std::equal(first.begin(), first.end(), again.begin(), again.end(),
-                       [](const Verdict& a, const Verdict& b) { return are_equal(a, b); }),
+    require(std::ranges::equal(first, again, is_same_verdict),
             "after reset() the same steps have other verdicts");
     const auto declared = std::find_if(first.begin(), first.end(), [](const Verdict& verdict) {
       return verdict.kind == VerdictKind::localized;
@@ -389,7 +387,7 @@ std::vector<Sample> all_of(ObservationSource& source, Motion motion) {
   return samples;
 }
 
-bool are_equal(const Sample& a, const Sample& b) {
+bool is_same_sample(const Sample& a, const Sample& b) {
   const Scan& p = a.observation.scan;
   const Scan& q = b.observation.scan;
   return a.observation.stamp == b.observation.stamp && p.hits == q.hits && p.free_ends == q.free_ends &&
@@ -407,9 +405,7 @@ void try_source(const Made<ObservationSource>& make, Motion motion, Findings& fi
   findings.check("the same seed", [&] {
     const auto first = all_of(*make(1), motion);
     const auto again = all_of(*make(1), motion);
-    require(std::equal(first.begin(), first.end(), again.begin(), again.end(),
-                       [](const Sample& a, const Sample& b) { return are_equal(a, b); }),
-            "it gives another drive");
+    require(std::ranges::equal(first, again, is_same_sample), "it gives another drive");
   });
 }
 
