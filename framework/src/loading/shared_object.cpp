@@ -33,15 +33,15 @@ std::optional<std::string> why_no_shared_object(const std::filesystem::path& fil
   Elf64_Ehdr header{};
   in.read(reinterpret_cast<char*>(&header), sizeof header);
   constexpr const char* not_one = "not a shared object; a plugin is what glocal_add_plugin() builds (.so)";
+  constexpr const char* truncated = "truncated; build or copy it again";
   if (size < sizeof(Elf32_Ehdr) || std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0) return not_one;
-  if (size < sizeof header) return "truncated; build or copy it again";
+  if (size < sizeof header) return truncated;
   const Elf64_Ehdr self = own_header();
   if (header.e_ident[EI_CLASS] != self.e_ident[EI_CLASS] || header.e_machine != self.e_machine) {
     return "built for another kind of processor; build it on this one";
   }
   if (header.e_type != ET_DYN) return not_one;
 
-  constexpr const char* truncated = "truncated; build or copy it again";
   const std::uint64_t table_size = std::uint64_t{header.e_phnum} * sizeof(Elf64_Phdr);
   if (header.e_phentsize != sizeof(Elf64_Phdr) || !lies_within(header.e_phoff, table_size, size))
     return truncated;
