@@ -7,7 +7,6 @@
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -418,10 +417,8 @@ void Localizer::judge(StepResult& result) {
   if (by_contact_->unknown_place.is_unknown(result.omega_place)) {
     withhold(result);
     result.verdict = {
-        VerdictKind::unknown_place,
-        std::nullopt,
-        {},
-        fmt::format("only {:.0f} % of what was last seen is on the map", 100.0 * *result.omega_place)};
+        .kind = VerdictKind::unknown_place,
+        .why = fmt::format("only {:.0f} % of what was last seen is on the map", 100.0 * *result.omega_place)};
   }
 }
 
