@@ -12,7 +12,6 @@
 #include "config/scalars.hpp"
 #include "config/text_file.hpp"
 #include "config/yaml_parser.hpp"
-#include "glocal/yaml.hpp"
 
 namespace glocal {
 namespace {
@@ -81,10 +80,8 @@ class MapReader final : public ParamVisitor {
                                     : "unknown " + key + suggestion(entry.key, known_, "known keys");
       add_fault(entry.place, fault);
     }
-    if (unknown > most) {
-      const std::string more = std::to_string(unknown - most) + " more unknown keys follow";
-      add_fault(map_->entries.back().place, more);
-    }
+    if (unknown > most)
+      add_fault(map_->entries.back().place, std::to_string(unknown - most) + " more unknown keys follow");
   }
 
  private:
