@@ -41,7 +41,7 @@ std::vector<std::size_t> nearest_messages(const std::vector<std::int64_t>& of_me
                                           const std::vector<std::int64_t>& times, std::int64_t farthest_ns) {
   std::vector<std::pair<std::int64_t, std::size_t>> by_stamp;
   for (std::size_t i = 0; i < of_messages.size(); ++i) by_stamp.emplace_back(of_messages[i], i);
-  std::sort(by_stamp.begin(), by_stamp.end());
+  std::ranges::sort(by_stamp);
   std::vector<std::size_t> nearest;
   for (const std::int64_t time : times) {
     const auto after = std::lower_bound(by_stamp.begin(), by_stamp.end(), std::pair(time, std::size_t{0}));
@@ -114,8 +114,8 @@ BagDrive::BagDrive(const Params& params, const SourceSetup& setup)
   const std::string file = params.path.resolved.string();
   contents_ = read_contents(recording_, topics_of(params), file, warn_);
   for (const auto& input : recording_.inputs()) setup.note_input(input);
-  const bool has_clouds = std::any_of(contents_.scans.begin(), contents_.scans.end(),
-                                      [](const ScanTopic& scan) { return scan.are_clouds; });
+  const bool has_clouds =
+      std::ranges::any_of(contents_.scans, [](const ScanTopic& scan) { return scan.are_clouds; });
   if (is_planar_ && has_clouds && params.heights.empty()) {
     throw ConfigError(file, clouds_need_heights);
   }
@@ -207,7 +207,7 @@ void BagDrive::join_other_topics() {
       wanted_[{topic, nearest[i]}].push_back(i);
       ++frames_[i].scans;
     }
-    const auto alone = std::count(nearest.begin(), nearest.end(), none);
+    const auto alone = std::ranges::count(nearest, none);
     if (alone > 0)
       warn_(fmt::format("{}: {} of {} observations are without a scan of {}", params_.path.resolved.string(),
                         alone, frames_.size(), shown(contents_.scans[topic].topic)));
@@ -216,8 +216,8 @@ void BagDrive::join_other_topics() {
 
 void BagDrive::warn_of_references() const {
   if (params_.reference.topic.empty() && params_.reference.frame.empty()) return;
-  const auto without = std::count_if(frames_.begin(), frames_.end(),
-                                     [&](const Frame& frame) { return !reference_at(frame.stamp_ns); });
+  const auto without =
+      std::ranges::count_if(frames_, [&](const Frame& frame) { return !reference_at(frame.stamp_ns); });
   if (without == 0) return;
   warn_(fmt::format("{}: {} of {} observations are without reference pose", params_.path.resolved.string(),
                     without, frames_.size()));
@@ -252,7 +252,7 @@ std::optional<Sample> BagDrive::next() {
 
 void BagDrive::take(const RecordedMessage& message) {
   const auto& scans = contents_.scans;
-  const auto topic = std::find_if(scans.begin(), scans.end(), [&](const ScanTopic& scan) {
+  const auto topic = std::ranges::find_if(scans, [&](const ScanTopic& scan) {
     return scan.topic == message.connection->topic && has_scans(message.connection->type);
   });
   if (topic == scans.end()) return;

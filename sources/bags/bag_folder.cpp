@@ -69,7 +69,7 @@ std::vector<fs::path> parts_in(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (is_part(entry.path())) parts.push_back(entry.path());
   }
-  std::sort(parts.begin(), parts.end());
+  std::ranges::sort(parts);
   return parts;
 }
 
@@ -110,7 +110,7 @@ std::vector<fs::path> unpacked_parts(const std::vector<fs::path>& parts) {
     if (is_packed(file))
       faults.push_back({file.string(), 0, 0,
                         fmt::format("is compressed as a whole; unpack it: zstd -d {}", file.string())});
-    if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
+    if (std::ranges::find(files, file) == files.end()) files.push_back(file);
   }
   if (!faults.empty()) throw ConfigError(std::move(faults));
   return files;
@@ -152,7 +152,7 @@ BagFolder read_bag_folder(const fs::path& folder) {
   for (const TopicCount& topic : information.topics) bag.messages[topic.topic.name] += topic.messages;
   if (information.files.empty()) return bag;
   for (const fs::path& part : there) {
-    const bool is_named = std::any_of(bag.files.begin(), bag.files.end(), [&](const fs::path& file) {
+    const bool is_named = std::ranges::any_of(bag.files, [&](const fs::path& file) {
       return part == file || part == file.string() + packed_extension;
     });
     if (!is_named)

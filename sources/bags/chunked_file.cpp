@@ -15,8 +15,7 @@ void ChunkedFile::rewind(const std::vector<bool>& wanted) {
   open_bytes_ = 0;
   open_ = {};
   last_ = nullptr;
-  std::stable_sort(chunks_.begin(), chunks_.end(),
-                   [](const ChunkSpan& a, const ChunkSpan& b) { return a.first_ns < b.first_ns; });
+  std::ranges::stable_sort(chunks_, {}, &ChunkSpan::first_ns);
 }
 
 std::optional<FileMessage> ChunkedFile::next() {
@@ -97,15 +96,14 @@ void ChunkedFile::open_next_chunk() {
   auto open = std::make_shared<OpenChunk>(OpenChunk{span, std::move(*chunk), 0});
   auto& entries = open->chunk.entries;
   const auto is_outside = [&](const ChunkEntry& e) { return e.stamp_ns < span.first_ns; };
-  if (std::any_of(entries.begin(), entries.end(), is_outside))
+  if (std::ranges::any_of(entries, is_outside))
     reading_.note(fmt::format(
         "{}: byte {}: the chunk has messages before the time that the file says it begins at; they "
         "may come out of order",
         file_.name(), span.offset));
   std::erase_if(entries, [&](const ChunkEntry& e) { return !wanted_[e.connection]; });
   if (entries.empty()) return;
-  std::stable_sort(entries.begin(), entries.end(),
-                   [](const ChunkEntry& a, const ChunkEntry& b) { return a.stamp_ns < b.stamp_ns; });
+  std::ranges::stable_sort(entries, {}, &ChunkEntry::stamp_ns);
   open_bytes_ += open->chunk.bytes.size();
   if (open_bytes_ > most_open)
     file_.refuse(span.offset,

@@ -34,7 +34,7 @@ std::vector<std::string> topics_of(const Recording& recording, bool (*is_wanted)
 std::string key_or_option(std::string_view key, const DriveTopics& wanted) {
   if (!wanted.are_options) return std::string(key);
   std::string option = "--" + std::string(key.substr(0, key.find('.')));
-  std::replace(option.begin(), option.end(), '_', '-');
+  std::ranges::replace(option, '_', '-');
   return option;
 }
 
@@ -57,7 +57,7 @@ class TopicChecker {
 
   void check_topic(const std::string& topic, const std::vector<std::string>& there, const std::string& what,
                    const std::string& key) const {
-    if (topic.empty() || std::find(there.begin(), there.end(), topic) != there.end()) return;
+    if (topic.empty() || std::ranges::find(there, topic) != there.end()) return;
     const std::string name = key_or_option(key, wanted_);
     fail(fmt::format("has no topic {} with {}; {}", shown(topic), what,
                      there.empty() ? fmt::format("it has none at all: leave out {}", name)
@@ -161,9 +161,7 @@ std::string ContentsReader::name_of(std::string_view key) const {
 }
 
 void ContentsReader::take_scan(const RecordedMessage& message) {
-  const auto scans = std::find_if(contents_.scans.begin(), contents_.scans.end(), [&](const ScanTopic& scan) {
-    return scan.topic == message.connection->topic;
-  });
+  const auto scans = std::ranges::find(contents_.scans, message.connection->topic, &ScanTopic::topic);
   if (scans == contents_.scans.end()) return;
   const auto header = readable_header(message);
   if (!header) return;
@@ -179,7 +177,7 @@ void ContentsReader::choose_frames() {
   c.odom_frame = odom_frame();
   std::vector<std::string> bases = {wanted_.base_frame};
   if (wanted_.base_frame.empty()) bases = {"base_footprint", "base_link"};
-  const auto base = std::find_if(bases.begin(), bases.end(), [&](const std::string& frame) {
+  const auto base = std::ranges::find_if(bases, [&](const std::string& frame) {
     return frame != c.odom_frame && tree.path(c.odom_frame, frame);
   });
   if (wanted_.odometry.empty() && base != bases.end()) {
@@ -193,11 +191,11 @@ void ContentsReader::choose_frames() {
 /// Of frames that may be the robot's, the first one that tf connects with scans.
 const std::string& ContentsReader::robot_of(const std::vector<std::string>& bases) const {
   const auto has_scans = [&](const std::string& base) {
-    return std::any_of(contents_.scans.begin(), contents_.scans.end(), [&](const ScanTopic& scan) {
+    return std::ranges::any_of(contents_.scans, [&](const ScanTopic& scan) {
       return contents_.tree.path(base, scan.frame).has_value();
     });
   };
-  const auto robot = std::find_if(bases.begin(), bases.end(), has_scans);
+  const auto robot = std::ranges::find_if(bases, has_scans);
   return robot == bases.end() ? bases.back() : *robot;
 }
 

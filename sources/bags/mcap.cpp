@@ -71,8 +71,8 @@ class McapFile final : public ChunkedFile {
     for (const ChunkSpan& span : chunks_) {
       const auto indexed = indexed_.find(span.offset);
       const bool is_known =
-          indexed != indexed_.end() && std::all_of(indexed->second.begin(), indexed->second.end(),
-                                                   [&](std::uint16_t id) { return channels_.contains(id); });
+          indexed != indexed_.end() &&
+          std::ranges::all_of(indexed->second, [&](std::uint16_t id) { return channels_.contains(id); });
       if (!is_known) static_cast<void>(load_if_whole(span));
     }
     indexed_.clear();

@@ -55,8 +55,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 25> definiti
 }};
 
 std::string_view text_of_fields(std::string_view type) {
-  const auto* const found =
-      std::find_if(definitions.begin(), definitions.end(), [&](const auto& d) { return d.first == type; });
+  const auto* const found = std::ranges::find_if(definitions, [&](const auto& d) { return d.first == type; });
   return found == definitions.end() ? std::string_view() : found->second;
 }
 
@@ -71,7 +70,7 @@ MessageField field_of(std::string_view type) {
 /// Adds the types in a type that are messages.
 void add_parts(std::string_view type, std::vector<std::string_view>& parts) {
   for (const MessageField& field : fields_of(type)) {
-    const bool is_known = std::find(parts.begin(), parts.end(), field.type) != parts.end();
+    const bool is_known = std::ranges::find(parts, field.type) != parts.end();
     if (is_known || text_of_fields(field.type).empty()) continue;
     parts.push_back(field.type);
     add_parts(field.type, parts);

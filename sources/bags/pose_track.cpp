@@ -6,12 +6,11 @@
 namespace glocal::bags {
 
 void PoseTrack::settle() {
-  std::stable_sort(poses_.begin(), poses_.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::ranges::stable_sort(poses_, {}, &Poses::value_type::first);
   // Of equal stamps the last one: from the back, unique() keeps the first that it meets.
   const auto same_stamp = [](const auto& a, const auto& b) { return a.first == b.first; };
   poses_.erase(poses_.begin(), std::unique(poses_.rbegin(), poses_.rend(), same_stamp).base());
-  is_still_ = !poses_.empty() && std::all_of(poses_.begin(), poses_.end(), [&](const auto& stamped) {
+  is_still_ = !poses_.empty() && std::ranges::all_of(poses_, [&](const auto& stamped) {
     return stamped.second == poses_.front().second;
   });
 }

@@ -80,7 +80,7 @@ Recording::Recording(Recording&&) noexcept = default;
 Recording& Recording::operator=(Recording&&) noexcept = default;
 
 void Recording::warn_once(std::vector<std::string>& warnings, const std::string& text) {
-  if (std::find(warnings.begin(), warnings.end(), text) == warnings.end()) warnings.push_back(text);
+  if (std::ranges::find(warnings, text) == warnings.end()) warnings.push_back(text);
 }
 
 void Recording::open(const fs::path& file, Damage damage) {

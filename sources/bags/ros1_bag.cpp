@@ -185,8 +185,7 @@ class Ros1Bag final : public ChunkedFile {
   }
 
   [[nodiscard]] bool knows_all(const std::set<std::uint32_t>& connections) const {
-    return std::all_of(connections.begin(), connections.end(),
-                       [&](std::uint32_t id) { return ids_.contains(id); });
+    return std::ranges::all_of(connections, [&](std::uint32_t id) { return ids_.contains(id); });
   }
 
   /// For chunks that no index knows.

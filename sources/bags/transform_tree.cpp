@@ -22,9 +22,7 @@ void TransformTree::settle(bool more_may_come) {
     const auto times_named = [](const auto& edge) {
       return edge.second.track.size() + (edge.second.fixed ? 1 : 0);
     };
-    const auto parent =
-        std::max_element(by_parent.begin(), by_parent.end(),
-                         [&](const auto& a, const auto& b) { return times_named(a) < times_named(b); });
+    const auto parent = std::ranges::max_element(by_parent, {}, times_named);
     parents_[child] = parent->first;
     parent->second.track.settle();
     parent->second.may_grow = more_may_come;
@@ -56,8 +54,8 @@ std::optional<FramePath> TransformTree::path(const std::string& in, const std::s
                                              bool may_move) const {
   const std::vector<std::string> from_in = line_of(in), from_of = line_of(of);
   const std::set<std::string> above_of(from_of.begin(), from_of.end());
-  const auto top = std::find_if(from_in.begin(), from_in.end(),
-                                [&](const std::string& frame) { return above_of.contains(frame); });
+  const auto top =
+      std::ranges::find_if(from_in, [&](const std::string& frame) { return above_of.contains(frame); });
   if (top == from_in.end()) return std::nullopt;
   FramePath path;
   path.from_first_ = climb(from_in, *top, may_move);
@@ -115,8 +113,7 @@ std::optional<Pose3> FramePath::pose(std::int64_t stamp_ns, std::int64_t max_gap
 
 bool FramePath::is_still() const {
   const auto stands = [](const TransformEdge* edge) { return edge->still().has_value(); };
-  return std::all_of(from_first_.moving.begin(), from_first_.moving.end(), stands) &&
-         std::all_of(from_second_.moving.begin(), from_second_.moving.end(), stands);
+  return std::ranges::all_of(from_first_.moving, stands) && std::ranges::all_of(from_second_.moving, stands);
 }
 
 }  // namespace glocal::bags
