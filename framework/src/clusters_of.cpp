@@ -17,7 +17,7 @@ std::vector<Cluster> clusters_of(const std::vector<Hypothesis>& hypotheses,
                                  const std::vector<std::size_t>& labels) {
   const std::size_t none = labels.size();
   if (none != hypotheses.size() ||
-      std::any_of(labels.begin(), labels.end(), [&](std::size_t label) { return label >= none; }))
+      std::ranges::any_of(labels, [&](std::size_t label) { return label >= none; }))
     throw std::invalid_argument("each hypothesis needs a label below the number of hypotheses");
   std::vector<std::size_t> cluster_with(labels.size(), none);
   std::vector<std::vector<std::size_t>> members;

@@ -20,7 +20,7 @@ std::string in_lines(const std::vector<Fault>& faults) {
 /// Sorted; of very many, those that nobody would read are only counted.
 std::vector<Fault> sorted(std::vector<Fault> faults) {
   constexpr std::size_t most = 200;
-  std::sort(faults.begin(), faults.end());
+  std::ranges::sort(faults);
   if (faults.size() <= most) return faults;
   const std::size_t more = faults.size() - most;
   faults.resize(most + 1);

@@ -62,13 +62,12 @@ Cluster moments(std::span<const Item<Pose3>> items) {
 }
 
 bool are_planar(const std::vector<Hypothesis>& hypotheses) {
-  return std::all_of(hypotheses.begin(), hypotheses.end(),
-                     [](const Hypothesis& h) { return h.map_from_robot.is_planar(); });
+  return std::ranges::all_of(hypotheses, [](const Hypothesis& h) { return h.map_from_robot.is_planar(); });
 }
 
 Cluster make_cluster(const std::vector<Hypothesis>& hypotheses, std::vector<std::size_t> members) {
-  const bool is_planar = std::all_of(members.begin(), members.end(),
-                                     [&](std::size_t i) { return hypotheses[i].map_from_robot.is_planar(); });
+  const bool is_planar =
+      std::ranges::all_of(members, [&](std::size_t i) { return hypotheses[i].map_from_robot.is_planar(); });
   Cluster cluster = is_planar ? moments(std::span<const Item<Pose2>>(items_of<Pose2>(hypotheses, members)))
                               : moments(std::span<const Item<Pose3>>(items_of<Pose3>(hypotheses, members)));
   cluster.members = std::move(members);

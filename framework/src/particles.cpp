@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <unordered_map>
 
 namespace glocal {
@@ -20,8 +21,7 @@ std::vector<Sums<Pose2>> cell_sums(const Particles& particles, const PoseBinning
     }
     sums[sum].add(poses[i], std::cos(poses[i].theta), std::sin(poses[i].theta), particles.weights[i]);
   }
-  std::stable_sort(sums.begin(), sums.end(),
-                   [](const Sums<Pose2>& a, const Sums<Pose2>& b) { return a.weight() > b.weight(); });
+  std::ranges::stable_sort(sums, std::greater<>(), &Sums<Pose2>::weight);
   sums.resize(std::min(sums.size(), most));
   // Sums of less underflow, and have no mean.
   constexpr double least_weight = 1e-290;
@@ -47,8 +47,7 @@ std::vector<Hypothesis> hypotheses_of(const Particles& particles, const Pose2& o
                      .score = score,
                      .support = static_cast<std::size_t>(std::max(1L, support))});
   }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Hypothesis& a, const Hypothesis& b) { return a.score > b.score; });
+  std::ranges::stable_sort(found, std::greater<>(), &Hypothesis::score);
   return found;
 }
 

@@ -45,8 +45,7 @@ PoseCells::PoseCells(std::span<const Pose2> poses, const PoseBinning& binning)
   std::vector<PoseCell> cells(poses.size());
   std::transform(poses.begin(), poses.end(), cells.begin(), [this](const Pose2& p) { return cell_of(p); });
   std::iota(order_.begin(), order_.end(), std::size_t{0});
-  std::stable_sort(order_.begin(), order_.end(),
-                   [&](std::size_t a, std::size_t b) { return cells[a] < cells[b]; });
+  std::ranges::stable_sort(order_, [&](std::size_t a, std::size_t b) { return cells[a] < cells[b]; });
   for (std::size_t i = 0; i < order_.size(); ++i) {
     const PoseCell& cell = cells[order_[i]];
     if (!cells_.empty() && cells_.back() == cell) continue;

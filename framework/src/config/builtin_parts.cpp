@@ -81,8 +81,7 @@ std::vector<BuiltinPart> builtin_parts(PartKind kind) {
     if (entry.path().extension() == ".yaml")
       parts.push_back({entry.path().stem().string(), entry.path(), first_comment(entry.path())});
   }
-  std::sort(parts.begin(), parts.end(),
-            [](const BuiltinPart& a, const BuiltinPart& b) { return a.name < b.name; });
+  std::ranges::sort(parts, {}, &BuiltinPart::name);
   return parts;
 }
 

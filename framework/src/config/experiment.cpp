@@ -34,8 +34,7 @@ struct LocalizerSection {
 };
 
 Motion motion_named(const std::string& name) {
-  return *std::find_if(every_motion.begin(), every_motion.end(),
-                       [&](Motion motion) { return name == to_string(motion); });
+  return *std::ranges::find_if(every_motion, [&](Motion motion) { return name == to_string(motion); });
 }
 
 /// A stage of the localizer, which must be able to do what the robot does.
@@ -152,8 +151,8 @@ std::set<Spot> spots_of(const std::vector<Change>& changes) {
 /// fields is broken where those are that the variant leaves alone.
 Fault fault_of(const std::vector<Change>& changes, const std::set<Spot>& spots, const Fault& fault) {
   if (changes.empty() || spots.contains({fault.file, fault.line, fault.column})) return fault;
-  const auto cause = std::find_if(changes.begin(), changes.end(),
-                                  [&](const Change& c) { return c.path.starts_with(fault.path); });
+  const auto cause =
+      std::ranges::find_if(changes, [&](const Change& c) { return c.path.starts_with(fault.path); });
   return fault_at(cause == changes.end() ? changes.front().place : cause->place,
                   "with this change, " + fault.message);
 }
@@ -161,20 +160,19 @@ Fault fault_of(const std::vector<Change>& changes, const std::set<Spot>& spots, 
 bool changes_trials(const Change& change) {
   constexpr std::array<std::string_view, 4> of_trials = {"seed", "map", "observations", "trials"};
   const std::string first = change.path.substr(0, change.path.find('.'));
-  return std::find(of_trials.begin(), of_trials.end(), first) != of_trials.end();
+  return std::ranges::find(of_trials, first) != of_trials.end();
 }
 
 /// The experiment with the variant's changes; faults that the experiment has without them are left out. For
 /// them to be the same the variant is read as the same struct.
 Variant read_variant(YamlNode tree, const VariantChanges& changes, const Catalog& catalog,
                      const std::set<Fault>& of_base, std::set<Fault>& faults) {
-  Variant variant{
-      .name = changes.name,
-      .experiment = {},
-      .changes_trials = std::any_of(changes.changes.begin(), changes.changes.end(), changes_trials),
-      .setting = changes.setting,
-      .case_name = changes.case_name,
-      .role = changes.role};
+  Variant variant{.name = changes.name,
+                  .experiment = {},
+                  .changes_trials = std::ranges::any_of(changes.changes, changes_trials),
+                  .setting = changes.setting,
+                  .case_name = changes.case_name,
+                  .role = changes.role};
   for (const Change& change : changes.changes)
     variant.values.emplace_back(change.path, flow_yaml(*change.value));
   ExperimentFileParams params(catalog);

@@ -120,8 +120,7 @@ std::optional<PathEnd> find_path(AnyParams& params, std::string_view path) {
   StructDoc doc = document(params);
   while (true) {
     const std::string name = take_part();
-    const auto at = std::find_if(doc.fields.begin(), doc.fields.end(),
-                                 [&](const FieldDoc& field) { return field.name == name; });
+    const auto at = std::ranges::find(doc.fields, name, &FieldDoc::name);
     if (at == doc.fields.end()) return std::nullopt;
     const FieldDoc field = *at;
     if (path.empty()) return PathEnd{field};

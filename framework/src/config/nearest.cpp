@@ -43,9 +43,8 @@ std::optional<std::string> nearest(std::string_view word, const std::vector<std:
   // Only the beginning of a name, which is as good as all of it where there is but one.
   constexpr std::size_t least = 3;
   const auto begins = [&](const std::string& candidate) { return candidate.starts_with(word); };
-  if (word.size() < least || std::count_if(candidates.begin(), candidates.end(), begins) != 1)
-    return std::nullopt;
-  return *std::find_if(candidates.begin(), candidates.end(), begins);
+  if (word.size() < least || std::ranges::count_if(candidates, begins) != 1) return std::nullopt;
+  return *std::ranges::find_if(candidates, begins);
 }
 
 std::string suggestion(std::string_view word, const std::vector<std::string>& candidates,

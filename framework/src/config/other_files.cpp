@@ -32,9 +32,8 @@ constexpr std::array<OtherFile, 4> other_files = {
 std::optional<std::string> why_no_experiment(const YamlNode& tree) {
   const auto has_key = [&](std::string_view key) { return find_entry(tree, key) != nullptr; };
   if (tree.kind != NodeKind::map || has_key("schema") || has_key("name")) return std::nullopt;
-  const auto found = std::find_if(other_files.begin(), other_files.end(), [&](const OtherFile& file) {
-    return std::all_of(file.keys.begin(), file.keys.end(), has_key);
-  });
+  const auto found = std::ranges::find_if(
+      other_files, [&](const OtherFile& file) { return std::ranges::all_of(file.keys, has_key); });
   if (found == other_files.end()) return std::nullopt;
   return fmt::format(fmt::runtime(found->what), tree.place.origin->label);
 }

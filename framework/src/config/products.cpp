@@ -32,7 +32,7 @@ constexpr std::array<std::string_view, 4> of_cases = {"map", "observations", "tr
 
 template <class Keys>
 bool has(const Keys& keys, std::string_view key) {
-  return std::find(keys.begin(), keys.end(), key) != keys.end();
+  return std::ranges::find(keys, key) != keys.end();
 }
 
 bool is_key_of(PartKind kind, std::string_view key) {
@@ -81,8 +81,7 @@ std::string own_name(const std::string& text) {
 
 /// Takes a key out of the tree; none if it is not there.
 std::optional<YamlNode> take(YamlNode& tree, std::string_view key) {
-  const auto found = std::find_if(tree.entries.begin(), tree.entries.end(),
-                                  [&](const YamlEntry& entry) { return entry.key == key; });
+  const auto found = std::ranges::find(tree.entries, key, &YamlEntry::key);
   if (found == tree.entries.end()) return std::nullopt;
   YamlNode value = std::move(found->value);
   tree.entries.erase(found);
@@ -104,7 +103,7 @@ void overlay(YamlNode& tree, const std::string& path, const YamlEntry& entry, An
 void drop_starts(YamlNode& trials, const YamlNode& own) {
   constexpr std::array<std::string_view, 4> ways = {"every_m", "starts_m", "every_scan", "whole"};
   const auto is_way = [&](const YamlEntry& entry) { return has(ways, entry.key); };
-  if (std::any_of(own.entries.begin(), own.entries.end(), is_way)) std::erase_if(trials.entries, is_way);
+  if (std::ranges::any_of(own.entries, is_way)) std::erase_if(trials.entries, is_way);
 }
 
 /// Puts the values of `own` over those of `tree`; plugins are added to those that are there.
@@ -180,7 +179,7 @@ class PartReader {
                 "'{}' is no name for a {}: at most 100 letters, digits, '_', '-' and '.', beginning with a "
                 "letter, a digit or '_'",
                 shown(name), to_string(kind));
-    } else if (std::any_of(parts.begin(), parts.end(), is_same)) {
+    } else if (std::ranges::any_of(parts, is_same)) {
       add_fault(faults_, entry.place,
                 "the {} '{}' is there twice; give each once, or names of their own (NAME: file)",
                 to_string(kind), name);
@@ -248,8 +247,7 @@ std::optional<YamlNode> take_suite(YamlNode& experiment, Products& products, std
 /// What a tree says, whatever the order of its keys.
 std::string sorted_text(YamlNode tree) {
   const auto sort = [](YamlNode& node, const auto& again) -> void {
-    std::sort(node.entries.begin(), node.entries.end(),
-              [](const YamlEntry& a, const YamlEntry& b) { return a.key < b.key; });
+    std::ranges::sort(node.entries, {}, &YamlEntry::key);
     for (YamlEntry& entry : node.entries) again(entry.value, again);
     for (YamlNode& item : node.items) again(item, again);
   };

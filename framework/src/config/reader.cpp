@@ -71,7 +71,7 @@ class MapReader final : public ParamVisitor {
     constexpr std::size_t most = 20;
     std::size_t unknown = 0;
     for (const YamlEntry& entry : map_->entries) {
-      if (std::find(known_.begin(), known_.end(), entry.key) != known_.end() || ++unknown > most) continue;
+      if (std::ranges::find(known_, entry.key) != known_.end() || ++unknown > most) continue;
       const std::string key = "key '" + entry.key + "'";
       const auto gone = gone_.find(entry.key);
       const std::string fault = gone != gone_.end() ? key + " " + gone->second

@@ -34,7 +34,7 @@ Signed split_sign(std::string_view text) {
 }
 
 bool is_whole(std::string_view digits) {
-  return !digits.empty() && std::all_of(digits.begin(), digits.end(), is_digit);
+  return !digits.empty() && std::ranges::all_of(digits, is_digit);
 }
 
 /// Digits with perhaps a fraction and an exponent, as in YAML's core schema: `12`, `1.5`, `.5`, `1.`, `1e-3`.
@@ -165,9 +165,9 @@ bool is_plain_word(std::string_view text) {
   if (text.empty() || !is_letter(text.front())) return false;
   std::string lower(text);
   for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  if (std::find(reserved.begin(), reserved.end(), lower) != reserved.end()) return false;
-  return std::all_of(text.begin(), text.end(),
-                     [&](char c) { return is_letter(c) || is_digit(c) || c == '-' || c == '.'; });
+  if (std::ranges::find(reserved, lower) != reserved.end()) return false;
+  return std::ranges::all_of(text,
+                             [&](char c) { return is_letter(c) || is_digit(c) || c == '-' || c == '.'; });
 }
 
 std::string double_quoted(std::string_view text) {
@@ -241,7 +241,7 @@ Refusal take_value(const YamlNode& node, const FieldInfo& info, std::string& val
   for (const FormerChoice& former : info.former_choices) {
     if (node.text == former.name) return "'" + node.text + "' is called '" + former.now + "' now";
   }
-  if (!choices.empty() && std::find(choices.begin(), choices.end(), node.text) == choices.end()) {
+  if (!choices.empty() && std::ranges::find(choices, node.text) == choices.end()) {
     const auto near = nearest(node.text, choices);
     return "'" + node.text + "' is not one of " + join(choices) +
            (near ? " (did you mean '" + *near + "'?)" : "");

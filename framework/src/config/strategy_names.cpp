@@ -14,7 +14,7 @@ namespace glocal {
 
 const RegistryBase* registry_of(const std::string& kind, const Catalog& catalog) {
   const auto all = catalog.registries();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const auto* r) { return r->kind() == kind; });
+  const auto found = std::ranges::find_if(all, [&](const auto* r) { return r->kind() == kind; });
   return found == all.end() ? nullptr : *found;
 }
 

@@ -154,8 +154,7 @@ std::string Suite::id() const {
 }
 
 const SuiteCase* Suite::find_case(std::string_view case_name) const {
-  const auto found =
-      std::find_if(cases.begin(), cases.end(), [&](const SuiteCase& one) { return one.name == case_name; });
+  const auto found = std::ranges::find(cases, case_name, &SuiteCase::name);
   return found == cases.end() ? nullptr : &*found;
 }
 

@@ -192,8 +192,8 @@ const std::vector<YamlEntry>& checked_paths(const YamlNode& map, const std::stri
     add_fault(faults, entry.place, "{}: a path of {} letters is none; write it as a.b.c", key,
               entry.key.size());
   }
-  const bool are_short = std::all_of(map.entries.begin(), map.entries.end(),
-                                     [](const YamlEntry& e) { return e.key.size() <= longest_path; });
+  const bool are_short =
+      std::ranges::all_of(map.entries, [](const YamlEntry& e) { return e.key.size() <= longest_path; });
   return are_short ? map.entries : none;
 }
 
@@ -213,9 +213,8 @@ std::string distinct_end(const std::string& path, const std::vector<std::string>
   for (std::size_t dot = path.rfind('.'); dot != std::string::npos && dot > 0;
        dot = path.rfind('.', dot - 1)) {
     std::string end = path.substr(dot + 1);
-    const auto same = std::count_if(all.begin(), all.end(), [&](const std::string& other) {
-      return other == end || other.ends_with("." + end);
-    });
+    const auto same = std::ranges::count_if(
+        all, [&](const std::string& other) { return other == end || other.ends_with("." + end); });
     if (same == 1) return end;
   }
   return path;
@@ -224,12 +223,12 @@ std::string distinct_end(const std::string& path, const std::vector<std::string>
 bool is_fixed(std::string_view path) {
   constexpr std::array<std::string_view, 3> fixed = {"schema", "name", "plugins"};
   const std::string_view first = path.substr(0, path.find('.'));
-  return is_variation(first) || std::find(fixed.begin(), fixed.end(), first) != fixed.end();
+  return is_variation(first) || std::ranges::find(fixed, first) != fixed.end();
 }
 
 bool is_folder_name(std::string_view name) {
   return !name.empty() && name.size() <= longest_name && is_word(name.front()) &&
-         std::all_of(name.begin(), name.end(), [](char c) { return is_word(c) || c == '-' || c == '.'; });
+         std::ranges::all_of(name, [](char c) { return is_word(c) || c == '-' || c == '.'; });
 }
 
 }  // namespace glocal

@@ -125,7 +125,7 @@ void describe(ParamVisitor& v, Variations& s) {
 }
 
 bool is_variation(std::string_view key) {
-  return std::find(variation_keys.begin(), variation_keys.end(), key) != variation_keys.end();
+  return std::ranges::find(variation_keys, key) != variation_keys.end();
 }
 
 const char* to_string(CaseRole role) {
@@ -154,9 +154,7 @@ Expansion expand(const Variations& variations, AnyParams& experiment, std::vecto
 void check_full_names(const Expansion& all, std::vector<Fault>& faults) {
   for (const VariantChanges& variant : all.variants) {
     const std::string name =
-        all.seeds.empty()
-            ? variant.name
-            : name_with_seed(variant.name, *std::max_element(all.seeds.begin(), all.seeds.end()));
+        all.seeds.empty() ? variant.name : name_with_seed(variant.name, *std::ranges::max_element(all.seeds));
     if (name.empty() || is_folder_name(name)) continue;
     add_fault(faults, variant.place,
               "variants: '{}' is too long for a folder's name, which has at most 100 letters; variants.list, "

@@ -31,7 +31,7 @@ std::string flow(const std::vector<T>& values) {
 
 /// Letters that mean nothing but themselves wherever a plain scalar may stand.
 bool is_plain(const std::string& text) {
-  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
+  return !text.empty() && std::ranges::all_of(text, [](char c) {
     return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' ||
            c == '-' || c == '+' || c == '.';
   });

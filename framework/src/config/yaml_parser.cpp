@@ -208,7 +208,7 @@ bool is_of_tab(const std::string& message, std::string_view source, const YAML::
   static const std::array<std::string_view, 5> rules = {
       YAML::ErrorMsg::END_OF_MAP, YAML::ErrorMsg::END_OF_SEQ, YAML::ErrorMsg::MAP_KEY,
       YAML::ErrorMsg::MAP_VALUE, YAML::ErrorMsg::BLOCK_ENTRY};
-  if (mark.is_null() || std::find(rules.begin(), rules.end(), message) == rules.end()) return false;
+  if (mark.is_null() || std::ranges::find(rules, message) == rules.end()) return false;
   const std::string_view before = source.substr(0, static_cast<std::size_t>(mark.pos));
   const std::string_view line = before.substr(before.rfind('\n') + 1);
   return line.substr(0, line.find_first_not_of(" \t-")).find('\t') != std::string_view::npos;

@@ -167,8 +167,7 @@ void try_clusterer(const Made<Clusterer>& make, Findings& findings) {
   };
   findings.check("clusters", [&] {
     for (const Cluster& cluster : answer(*make(1)))
-      require(std::is_sorted(cluster.members.begin(), cluster.members.end()),
-              "the members of one do not ascend");
+      require(std::ranges::is_sorted(cluster.members), "the members of one do not ascend");
   });
   findings.check("the same again", [&] {
     const auto clusterer = make(1);
@@ -263,9 +262,8 @@ void try_verdict_rule(const Made<VerdictRule>& make, Findings& findings) {
     const std::vector<Verdict> again = drive();
     require(std::ranges::equal(first, again, is_same_verdict),
             "after reset() the same steps have other verdicts");
-    const auto declared = std::find_if(first.begin(), first.end(), [](const Verdict& verdict) {
-      return verdict.kind == VerdictKind::localized;
-    });
+    const auto declared = std::ranges::find_if(
+        first, [](const Verdict& verdict) { return verdict.kind == VerdictKind::localized; });
     require(declared == first.end() ||
                 static_cast<std::size_t>(declared - first.begin()) + 1 >= rule->least_steps(),
             "a pose is declared before the {} steps that least_steps() says", rule->least_steps());

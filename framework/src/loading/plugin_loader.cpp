@@ -136,7 +136,7 @@ void PluginLoader::load(const std::filesystem::path& file) {
   std::error_code error;
   const std::filesystem::path absolute = std::filesystem::weakly_canonical(file, error);
   const std::filesystem::path& path = error ? file : absolute;
-  if (std::find(loaded_.begin(), loaded_.end(), path) != loaded_.end()) return;
+  if (std::ranges::find(loaded_, path) != loaded_.end()) return;
 
   if (const auto other = others_.find(path.extension()); other != others_.end()) {
     const OriginOfRegistries origin(catalog_, path.filename().string());
@@ -169,7 +169,7 @@ void PluginLoader::load_folders(const std::string& path) {
           folder,
           fmt::format("a folder of plugins (GLOCAL_PLUGIN_PATH) that cannot be read: {}", error.message()));
     }
-    std::sort(files.begin(), files.end());
+    std::ranges::sort(files);
     for (const auto& file : files) load(file);
   }
 }

@@ -18,7 +18,7 @@ void give_back_zeros(std::vector<float>& values) {
   const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
   constexpr std::size_t worth_it = 1U << 20U;  // of such size they are pages of their own
   const bool are_zeros =
-      std::all_of(values.begin(), values.end(), [](float v) { return std::bit_cast<std::uint32_t>(v) == 0; });
+      std::ranges::all_of(values, [](float v) { return std::bit_cast<std::uint32_t>(v) == 0; });
   if (values.size() < worth_it || !are_zeros) return;
   const auto begin = (reinterpret_cast<std::uintptr_t>(values.data()) + page - 1) / page * page;
   const auto end = reinterpret_cast<std::uintptr_t>(values.data() + values.size()) / page * page;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
@@ -51,8 +52,7 @@ std::optional<Observation> flattened(const Observation& observation, float heigh
 void sort_by_rating(std::vector<Cluster>& clusters, std::vector<Rating>& ratings) {
   std::vector<std::size_t> order(clusters.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return ratings[a].r > ratings[b].r; });
+  std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) { return ratings[i].r; });
   std::vector<Cluster> sorted_clusters;
   std::vector<Rating> sorted_ratings;
   for (const std::size_t i : order) {
@@ -110,7 +110,7 @@ double epsilon_factor(double range_noise, double epsilon) {
 }
 
 double count_of(HitKind kind, const std::vector<HitKind>& hits) {
-  return static_cast<double>(std::count(hits.begin(), hits.end(), kind));
+  return static_cast<double>(std::ranges::count(hits, kind));
 }
 
 /// Of those of which the map can tell.
@@ -381,8 +381,7 @@ void Localizer::add_expected(const LocalMap& local, StepResult& result) {
         hypotheses.push_back(h);
     });
     for (Hypothesis& h : hypotheses) h.map_from_robot = h.map_from_local * local.local_from_robot;
-    std::stable_sort(hypotheses.begin(), hypotheses.end(),
-                     [](const Hypothesis& a, const Hypothesis& b) { return a.score > b.score; });
+    std::ranges::stable_sort(hypotheses, std::greater<>(), &Hypothesis::score);
     std::erase_if(hypotheses, [&](const Hypothesis& h) {
       return h.score < result.omega_max || !gate_.allows(h.map_from_local);
     });

@@ -108,7 +108,7 @@ void check_observation(const Observation& observation, Motion motion) {
   const std::vector<float>& times = observation.scan.times;
   require(times.empty() || times.size() == observation.scan.hits.size(), "there are {} times for {} hits",
           times.size(), observation.scan.hits.size());
-  require(std::all_of(times.begin(), times.end(), [](float time) { return std::isfinite(time); }),
+  require(std::ranges::all_of(times, [](float time) { return std::isfinite(time); }),
           "a hit's time is not finite");
   const Point& origin = observation.scan.origin;
   require(is_near({origin.x, origin.y, origin.z}),
@@ -120,9 +120,9 @@ void check_local_map(const LocalMap& local, Motion motion) {
   check_points(local.points, "points");
   check_normals(local.normals, local.points);
   check_pose(local.local_from_robot, motion, "the robot in local map {}", local.epoch);
-  require(std::is_sorted(local.ends.begin(), local.ends.end()) &&
-              (local.ends.empty() || local.ends.back() <= local.points.size()),
-          "`ends` falls, or reaches beyond the {} points", local.points.size());
+  require(
+      std::ranges::is_sorted(local.ends) && (local.ends.empty() || local.ends.back() <= local.points.size()),
+      "`ends` falls, or reaches beyond the {} points", local.points.size());
 }
 
 void check_threshold(double omega_max) {
