@@ -12,6 +12,7 @@
 #include "app/drive_options.hpp"
 #include "app/reading_bar.hpp"
 #include "app/standard_streams.hpp"
+#include "evaluation/results/json_text.hpp"
 #include "glocal/pose2.hpp"
 #include "glocal/words.hpp"
 #include "sources/bags/recording_summary.hpp"
@@ -100,8 +101,7 @@ void info(const BagOptions& options) {
   for (const std::string& warning : recording.warnings()) spdlog::warn("{}", warning);
   for (const std::string& remark : remarks) spdlog::warn("{}", remark);
   if (!options.json) return show(recording, summary);
-  // Names in files may be of any bytes.
-  answer("{}\n", json_of(recording, summary).dump(2, ' ', false, Json::error_handler_t::replace));
+  answer("{}\n", json_text(json_of(recording, summary), 2));
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "evaluation/comparison/named_runs.hpp"
 #include "evaluation/results/atomic_file.hpp"
 #include "evaluation/results/fault_collector.hpp"
+#include "evaluation/results/json_text.hpp"
 #include "evaluation/results/report_blocks.hpp"
 #include "evaluation/results/results_folder.hpp"
 #include "evaluation/running/experiment_loader.hpp"
@@ -39,7 +40,7 @@ struct CompareOptions {
 /// The comparison as the ending of a file's name asks for it.
 std::string written_as(const ComparisonOutput& output, const std::string& file) {
   if (file.ends_with(".csv")) return output.csv;
-  return file.ends_with(".md") ? as_markdown(output.full) : output.json_text(2) + "\n";
+  return file.ends_with(".md") ? as_markdown(output.full) : json_text(output.json, 2) + "\n";
 }
 
 /// What is wrong with a file's name; empty if nothing is.
@@ -144,7 +145,7 @@ void compare_runs(const CompareOptions& options, Context& context) {
   for (const std::string& file : options.out) files.add(file, written_as(output, file));
   files.commit();
   if (options.json) {
-    answer(output.json_text(2) + "\n");
+    answer("{}\n", json_text(output.json, 2));
   } else if (options.full) {
     answer(as_text(output.full));
   } else {

@@ -12,6 +12,7 @@
 #include "app/commands.hpp"
 #include "app/standard_streams.hpp"
 #include "evaluation/comparison/named_runs.hpp"
+#include "evaluation/results/json_text.hpp"
 #include "evaluation/results/number_text.hpp"
 #include "evaluation/results/stored_figures.hpp"
 #include "evaluation/results/summary_text.hpp"
@@ -138,8 +139,7 @@ void summarize(const SummarizeOptions& options) {
   Json json = Json::array();
   for (const Row& row : rows) json.push_back(to_json(row));
   if (options.json) {
-    // Names of folders need not be UTF-8.
-    answer("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+    answer("{}\n", json_text(json, 2));
     return;
   }
   if (!options.no_head) answer(markdown_head());

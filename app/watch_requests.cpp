@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "evaluation/results/json_text.hpp"
 #include "report/page.hpp"
 #include "report/page_text.hpp"
 #include "sources/text_lines.hpp"

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "report/page.hpp"
+#include "evaluation/results/json_text.hpp"
 
 namespace glocal {
 namespace {

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "evaluation/results/json_text.hpp"
 #include "evaluation/results/provenance.hpp"
 #include "report/packed.hpp"
 #include "report/page_text.hpp"
@@ -61,10 +62,6 @@ std::pair<std::string_view, std::string_view> split(std::string_view page, std::
 
 }  // namespace
 
-std::string json_text(const Json& data) {
-  return data.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
 std::vector<PageFile> put_beside(PageData& data, const std::string& folder) {
   const std::string hash = hash_of(data.chunks);
   std::vector<PageFile> files;
@@ -104,11 +101,10 @@ std::string page_with(std::string_view page, const std::string& title, const Pag
   const auto [before_leave, after_leave] = split(page, "<!--glocal:leave-->");
   const auto [before_title, after_title] = split(after_leave, "<!--glocal:title-->");
   const auto [before_data, after_data] = split(after_title, "<!--glocal:data-->");
-  const std::string text_title = Json::parse(json_text(title)).get<std::string>();  // in UTF-8
   std::string result(before_leave);
   if (data.head.contains("beside")) result += " 'self' file:";
   result += before_title;
-  result += in_html(text_title);
+  result += in_html(valid_utf8(title));
   result += before_data;
   result += script_of_data("glocal-data", packed(data.head));
   for (std::size_t i = 0; i < data.chunks.size(); ++i)

@@ -8,9 +8,6 @@
 
 namespace glocal {
 
-/// JSON as text. What is not UTF-8 in it, such as names of folders may have, is replaced.
-[[nodiscard]] std::string json_text(const nlohmann::ordered_json& data);
-
 /// What a page shows.
 struct PageData {
   nlohmann::ordered_json head;           ///< What came out; enough for a page without steps.

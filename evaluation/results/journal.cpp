@@ -14,9 +14,9 @@
 #include <system_error>
 #include <vector>
 
+#include "evaluation/results/json_text.hpp"
 #include "evaluation/results/number_text.hpp"
 #include "evaluation/results/provenance.hpp"
-#include "evaluation/results/valid_text.hpp"
 #include "glocal/error.hpp"
 
 namespace glocal {
@@ -135,8 +135,7 @@ Journal::Journal(const fs::path& folder, const Shard& shard, int jobs) : file_(f
 }
 
 void Journal::add_variant(const std::string& identity, const Json& description) {
-  add_line(journal_words::variant,
-           identity + " " + description.dump(-1, ' ', false, Json::error_handler_t::replace), true);
+  add_line(journal_words::variant, identity + " " + json_text(description), true);
 }
 
 void Journal::begin(const TrialId& id, const Json& start) {

@@ -45,6 +45,14 @@ std::size_t whole_number(const nlohmann::ordered_json& array, std::size_t index)
   return whole(array.at(index), std::to_string(index));
 }
 
+std::string json_text(const nlohmann::ordered_json& json, int indent) {
+  return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+std::string valid_utf8(const std::string& text) {
+  return nlohmann::ordered_json::parse(json_text(text)).get<std::string>();
+}
+
 std::string reason(const std::exception& error) {
   const std::string text = error.what();
   const std::size_t name_end = text.find("] ");

@@ -17,6 +17,13 @@ namespace glocal {
 [[nodiscard]] std::size_t whole_number(const nlohmann::ordered_json& object, const char* key);
 [[nodiscard]] std::size_t whole_number(const nlohmann::ordered_json& array, std::size_t index);
 
+/// JSON as text; `indent` is as of nlohmann::json. What is not UTF-8 in it, such as names of files may have,
+/// is replaced by U+FFFD.
+[[nodiscard]] std::string json_text(const nlohmann::ordered_json& json, int indent = -1);
+
+/// The text in UTF-8: what is not, as plugins may say anything, is replaced in the same way.
+[[nodiscard]] std::string valid_utf8(const std::string& text);
+
 /// What an exception says, without the name that the library of JSON puts in front.
 [[nodiscard]] std::string reason(const std::exception& error);
 

@@ -20,7 +20,6 @@
 #include "evaluation/results/file_io.hpp"
 #include "evaluation/results/json_text.hpp"
 #include "evaluation/results/results_folder.hpp"
-#include "evaluation/results/valid_text.hpp"
 #include "glocal/error.hpp"
 #include "version.hpp"
 

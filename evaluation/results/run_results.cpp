@@ -106,9 +106,7 @@ std::optional<JournalEntry> JournaledTrials::take(std::size_t trial, OutputFolde
 
 void write_origin(OutputFolder& folder, const Json& description) {
   folder.write("effective.yaml", description.at("effective").get<std::string>());
-  // Names of files need not be UTF-8.
-  folder.write("provenance.json",
-               description.at("provenance").dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  folder.write("provenance.json", json_text(description.at("provenance"), 2) + "\n");
 }
 
 Json put_together(OutputFolder& folder, const Json& description, const JournaledTrials& trials,

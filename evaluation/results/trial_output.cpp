@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "evaluation/results/json_text.hpp"
 #include "evaluation/results/pcd.hpp"
-#include "evaluation/results/valid_text.hpp"
 #include "evaluation/results/writers.hpp"
 
 namespace glocal {

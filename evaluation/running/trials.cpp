@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "evaluation/results/valid_text.hpp"
+#include "evaluation/results/json_text.hpp"
 #include "glocal/error.hpp"
 
 namespace glocal {

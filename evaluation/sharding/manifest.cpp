@@ -293,8 +293,7 @@ bool has_more_variants(const Manifest& there, const Manifest& here) {
 
 void write_manifest(const fs::path& shared, const Manifest& manifest) {
   AtomicFiles files(true);
-  files.add(manifest_file(shared),
-            to_json(manifest).dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  files.add(manifest_file(shared), json_text(to_json(manifest), 1) + "\n");
   files.commit();
 }
 

@@ -7,10 +7,6 @@
 
 namespace glocal {
 
-std::string ComparisonOutput::json_text(int indent) const {
-  return json.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
 ComparisonOutput comparison_output(const std::vector<NamedRun>& runs, std::size_t baseline,
                                    std::span<const Measure> measured) {
   const Comparison comparison = compare(runs, baseline, measured);

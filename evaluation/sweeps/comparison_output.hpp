@@ -17,9 +17,6 @@ struct ComparisonOutput {
   Report full;                  ///< The same with all tests.
   nlohmann::ordered_json json;  ///< All numbers.
   std::string csv;              ///< A row for each variant and test.
-
-  /// Names of folders need not be UTF-8; what is not is replaced. `indent` is as of nlohmann::json.
-  [[nodiscard]] std::string json_text(int indent) const;
 };
 
 /// Of compare(), which throws, and of compare_parameters().

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "config/nearest.hpp"
+#include "evaluation/results/json_text.hpp"
 #include "evaluation/results/proportions.hpp"
 #include "evaluation/results/report_blocks.hpp"
 #include "evaluation/sweeps/parameter_report.hpp"
@@ -304,7 +305,7 @@ Json to_json(const SweepAnalysis& a) {
 }
 
 std::string json_text(const SweepAnalysis& analysis) {
-  return to_json(analysis).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(to_json(analysis), 2) + "\n";
 }
 
 }  // namespace glocal

@@ -19,7 +19,7 @@ namespace glocal {
 
 /// All numbers; docs/file-formats.md tells the keys.
 [[nodiscard]] nlohmann::ordered_json to_json(const SweepAnalysis& analysis);
-/// The same as text. What is not UTF-8 in it, such as names of folders may have, is replaced.
+/// The same as text, with the end of its last line.
 [[nodiscard]] std::string json_text(const SweepAnalysis& analysis);
 
 }  // namespace glocal

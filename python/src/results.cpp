@@ -15,6 +15,7 @@
 
 #include "evaluation/comparison/comparison.hpp"
 #include "evaluation/comparison/named_runs.hpp"
+#include "evaluation/results/json_text.hpp"
 #include "evaluation/results/report_blocks.hpp"
 #include "evaluation/results/results_folder.hpp"
 #include "evaluation/results/summary_text.hpp"
@@ -134,7 +135,7 @@ std::tuple<std::string, std::string, std::string, std::string, std::string> comp
   const ComparisonOutput output =
       comparison_output(runs, find_baseline(runs, baseline), times ? measures() : measures_but_time());
   return {as_text(output.brief), as_text(output.full), as_markdown(output.full), output.csv,
-          output.json_text(-1)};
+          json_text(output.json)};
 }
 
 /// As text and as JSON.
