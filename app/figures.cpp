@@ -70,9 +70,7 @@ void write_script(const FiguresOptions& options) {
       spdlog::info("{}: drawn with this as it has been changed; --force writes it anew", script.string());
     return;
   }
-  AtomicFiles files(options.force);
-  files.add(script, figures_script());
-  files.commit();
+  write_file(script, figures_script(), options.force);
 }
 
 /// What glocal sweep tells of the one folder.
@@ -132,9 +130,7 @@ void draw_figures(const FiguresOptions& options) {
     const std::string sweep = checked_sweep(options);
     const std::string python = python_with_matplotlib(options.python);
     const fs::path file = fs::absolute(options.out) / "sweep.json";
-    AtomicFiles files(true);
-    files.add(file, sweep);
-    files.commit();
+    write_file(file, sweep);
     run_script(options, python, {"--sweep", file});
     return;
   }

@@ -307,9 +307,7 @@ void live(const LiveOptions& options, Context& context) {
   const std::string steps = options.steps_file();
   if (!options.force && std::filesystem::is_regular_file(steps))
     throw ConfigError(steps, "the file exists; choose another name, or replace it with --force");
-  AtomicFiles files(options.force);
-  files.add(file, plan.experiment + options.changes.comment());
-  files.commit();
+  write_file(file, plan.experiment + options.changes.comment(), options.force);
   for (const std::string& choice : plan.choices) answer("{}\n", choice);
   answer("experiment  {}\n", file);
   if (viewers) spdlog::info("foxglove: ws://{}", viewers->endpoint());

@@ -84,9 +84,7 @@ void write_state(const std::filesystem::path& file, const LiveState& state) {
   Json json = {{"schema", schema},      {"map", state.map},     {"pose", json_of(state.map_from_robot)},
                {"covariance", nullptr}, {"stamp", state.stamp}, {"way_since_m", state.way_since_m}};
   if (const auto& c = state.covariance) json["covariance"] = {c->xx, c->xy, c->xt, c->yy, c->yt, c->tt};
-  AtomicFiles files(true);
-  files.add(file, json.dump() + "\n");
-  files.commit();
+  write_file(file, json.dump() + "\n");
 }
 
 std::optional<ExpectedPose> expected_from(const LiveState& state, const std::string& map) {

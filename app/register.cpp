@@ -153,9 +153,8 @@ void write_joined(const PairOutcome& outcome, const Cloud& source, const Cloud& 
     spdlog::warn("{} is not written: there is no match", options.out);
     return;
   }
-  AtomicFiles files(options.force);
-  files.add(options.out, pcd(joined(source.points, target.points, *outcome.registration.target_from_source)));
-  files.commit();
+  write_file(options.out, pcd(joined(source.points, target.points, *outcome.registration.target_from_source)),
+             options.force);
 }
 
 void register_pair(const RegisterOptions& options, const Registering& registering) {

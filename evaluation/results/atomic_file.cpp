@@ -66,4 +66,10 @@ void AtomicFiles::commit() {
   pending_.clear();
 }
 
+void write_file(const fs::path& file, std::string_view content, bool replace) {
+  AtomicFiles files(replace);
+  files.add(file, content);
+  files.commit();
+}
+
 }  // namespace glocal

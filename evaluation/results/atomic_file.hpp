@@ -38,4 +38,7 @@ class AtomicFiles {
   std::vector<Pending> pending_;
 };
 
+/// Writes a single file in the same way.
+void write_file(const std::filesystem::path& file, std::string_view content, bool replace = true);
+
 }  // namespace glocal

@@ -160,9 +160,7 @@ void JournalScan::update_index(std::size_t journal) {
   if (damaged_.contains(journal)) fs::remove(index, ignored);
   if (closed_ == Closed::indexed && !damaged_.contains(journal) && !text.empty()) {
     try {
-      AtomicFiles files(true);
-      files.add(index, checksum(text) + " " + text);
-      files.commit();
+      write_file(index, checksum(text) + " " + text);
     } catch (const RunError&) {
       // Whoever may not write here reads all again next time.
     }

@@ -61,9 +61,7 @@ bool is_before(std::string_view a, std::string_view b) {
 }
 
 void write_variant_order(const fs::path& folder, const std::vector<std::string>& names) {
-  AtomicFiles files(true);
-  files.add(folder / file_name, Json(names).dump(2) + "\n");
-  files.commit();
+  write_file(folder / file_name, Json(names).dump(2) + "\n");
 }
 
 void sort_by_variant(const fs::path& folder, std::vector<fs::path>& folders) {

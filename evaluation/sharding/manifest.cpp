@@ -292,9 +292,7 @@ bool has_more_variants(const Manifest& there, const Manifest& here) {
 }
 
 void write_manifest(const fs::path& shared, const Manifest& manifest) {
-  AtomicFiles files(true);
-  files.add(manifest_file(shared), json_text(to_json(manifest), 1) + "\n");
-  files.commit();
+  write_file(manifest_file(shared), json_text(to_json(manifest), 1) + "\n");
 }
 
 Manifest read_manifest(const fs::path& shared) {
