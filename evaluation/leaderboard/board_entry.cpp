@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string_view>
@@ -24,23 +23,16 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr int entry_format = 1;
-constexpr std::string_view outcome_letters = "rwudf";  // in the order of the names below
-constexpr std::array outcomes = {Outcome::right, Outcome::wrong, Outcome::undecided, Outcome::declared,
-                                 Outcome::failed};
+constexpr std::string_view outcome_letters = "rwudf";  // in the order of Outcome
 
 double rounded(double value, double parts) {
   return std::round(value * parts) / parts;
 }
 
-char letter_of(Outcome outcome) {
-  return outcome_letters[static_cast<std::size_t>(std::find(outcomes.begin(), outcomes.end(), outcome) -
-                                                  outcomes.begin())];
-}
-
 Outcome outcome_of_letter(char letter) {
   const std::size_t at = outcome_letters.find(letter);
   if (at == std::string_view::npos) throw std::invalid_argument(fmt::format("'{}' is no outcome", letter));
-  return outcomes.at(at);
+  return static_cast<Outcome>(at);
 }
 
 /// "key": [of each start]
@@ -56,7 +48,8 @@ std::string column(const CaseResult& result, const char* key, Value value) {
 
 std::string text_of_result(const CaseResult& result) {
   std::string outcome;
-  for (const StartResult& start : result.starts) outcome += letter_of(start.outcome);
+  for (const StartResult& start : result.starts)
+    outcome += outcome_letters[static_cast<std::size_t>(start.outcome)];
   const char* const next = result.starts.size() == 1 ? ", " : ",\n   ";
   std::string text =
       fmt::format("  {{\"case\": {}, \"seed\": {}", Json(result.case_name).dump(), result.seed);
