@@ -38,18 +38,15 @@ TrialOutput TrialCollector::finish(const TrialRecord& trial) {
     add("localized", std::move(trajectories.localized));
     if (!trajectories.reference.empty()) add("reference", std::move(trajectories.reference));
   }
-  for (auto& file : take_maps(trial.trial)) output.files.push_back(std::move(file));
+  const std::lock_guard lock(mutex_);
+  if (const auto maps = maps_.extract(trial.trial)) {
+    for (auto& file : maps.mapped()) output.files.push_back(std::move(file));
+  }
   return output;
 }
 
 bool TrialCollector::keeps_map(std::size_t trial) const {
   return config_.maps == "all" || (config_.maps == "first_trial" && trial == 0);
-}
-
-NamedContents TrialCollector::take_maps(std::size_t trial) {
-  const std::lock_guard lock(mutex_);
-  const auto node = maps_.extract(trial);
-  return node.empty() ? NamedContents{} : std::move(node.mapped());
 }
 
 }  // namespace glocal

@@ -35,8 +35,6 @@ class TrialCollector {
   [[nodiscard]] bool keeps_map(std::size_t trial) const;
 
  private:
-  NamedContents take_maps(std::size_t trial);
-
   const OutputConfig& config_;
   std::mutex mutex_;                           ///< For the maps.
   std::map<std::size_t, NamedContents> maps_;  ///< Of running trials.
