@@ -297,21 +297,20 @@ void write_manifest(const fs::path& shared, const Manifest& manifest) {
 
 Manifest read_manifest(const fs::path& shared) {
   const fs::path file = manifest_file(shared);
-  const auto refuse = [&](const fs::path& place, const std::string& what) { throw ConfigError(place, what); };
   if (!is_shared_folder(shared))
-    refuse(shared,
-           "no shards have run here: there is no .shards/manifest.json; name the folder that "
-           "'glocal run --shard' was given with --out");
-  if (const auto why = why_unreadable(file)) refuse(file, "cannot be read: " + *why);
+    throw ConfigError(shared,
+                      "no shards have run here: there is no .shards/manifest.json; name the folder that "
+                      "'glocal run --shard' was given with --out");
+  if (const auto why = why_unreadable(file)) throw ConfigError(file, "cannot be read: " + *why);
   try {
     const Json json = parse_json(content_of(file));
     if (json.at("format") == manifest_format) return manifest_of(json);
   } catch (const std::exception& error) {
-    refuse(file, fmt::format("is damaged ({}); remove it and run a shard again, which writes it anew",
-                             reason(error)));
+    throw ConfigError(
+        file,
+        fmt::format("is damaged ({}); remove it and run a shard again, which writes it anew", reason(error)));
   }
-  refuse(file, "is of another version of glocal; give shards of this one another folder");
-  return {};
+  throw ConfigError(file, "is of another version of glocal; give shards of this one another folder");
 }
 
 }  // namespace glocal
