@@ -1,6 +1,7 @@
 // What glocal run has left in a folder, read again. docs/file-formats.md says what is in it.
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -9,7 +10,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "evaluation/running/trials.hpp"
@@ -29,9 +29,8 @@ struct TrialStart {
   std::int64_t sample = 0;
   double distance_m = 0.0;  ///< Along the drive.
   double stamp = 0.0;
-  friend bool operator<(const TrialStart& a, const TrialStart& b) {
-    return std::tie(a.sample, a.distance_m, a.stamp) < std::tie(b.sample, b.distance_m, b.stamp);
-  }
+
+  friend auto operator<=>(const TrialStart&, const TrialStart&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
 /// One line of trials.jsonl, with what steps.jsonl says of its time.
