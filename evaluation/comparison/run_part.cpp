@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <stdexcept>
 
 #include "evaluation/results/json_text.hpp"
@@ -15,11 +13,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 CaseRole role_of(const std::string& name) {
-  constexpr std::array<CaseRole, 3> all = {CaseRole::none, CaseRole::choose, CaseRole::judge};
-  const auto* const role =
-      std::find_if(all.begin(), all.end(), [&](CaseRole r) { return name == to_string(r); });
-  if (role == all.end()) throw std::invalid_argument("there is no role '" + name + "'");
-  return *role;
+  for (const CaseRole role : {CaseRole::none, CaseRole::choose, CaseRole::judge}) {
+    if (name == to_string(role)) return role;
+  }
+  throw std::invalid_argument("there is no role '" + name + "'");
 }
 
 RunPart read_part(const Json& json) {
