@@ -51,10 +51,9 @@ MeanAndError mean_of(const std::vector<StratumSums>& strata) {
   return {sum / trials, std::sqrt(variance) / trials};
 }
 
-template <class Place>
-std::vector<std::vector<Place>> by_stratum(const std::vector<Place>& places) {
-  std::vector<std::vector<Place>> strata;
-  for (const Place& place : places) {
+std::vector<std::vector<PlaceSum>> by_stratum(const std::vector<PlaceSum>& places) {
+  std::vector<std::vector<PlaceSum>> strata;
+  for (const PlaceSum& place : places) {
     if (place.stratum >= strata.size()) strata.resize(place.stratum + 1);
     strata[place.stratum].push_back(place);
   }
