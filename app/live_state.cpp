@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "evaluation/results/atomic_file.hpp"
+#include "evaluation/results/file_io.hpp"
 #include "evaluation/results/provenance.hpp"
 #include "glocal/error.hpp"
 
@@ -61,8 +61,7 @@ std::optional<LiveState> read_state(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file)) return std::nullopt;
   if (std::filesystem::is_directory(file)) throw ConfigError(file, "is a folder; name a file with --state");
   try {
-    std::ifstream stream(file);
-    const Json json = Json::parse(stream);
+    const Json json = Json::parse(content_of(file));
     if (json.at("schema") != schema)
       refuse_state(file, fmt::format("is of schema {}, not {}", json.at("schema").dump(), schema));
     LiveState state{.map = json.at("map").get<std::string>(),

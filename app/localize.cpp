@@ -3,10 +3,8 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -22,6 +20,7 @@
 #include "app/standard_streams.hpp"
 #include "app/step_text.hpp"
 #include "evaluation/results/atomic_file.hpp"
+#include "evaluation/results/file_io.hpp"
 #include "evaluation/results/results_folder.hpp"
 #include "evaluation/running/experiment_runner.hpp"
 
@@ -115,8 +114,7 @@ class Narrator {
 
 /// Of several starts.
 void print_figures(const RunResult& result) {
-  std::ifstream file(result.variants.front().summary);
-  const auto summary = nlohmann::ordered_json::parse(file);
+  const auto summary = nlohmann::ordered_json::parse(content_of(result.variants.front().summary));
   if (summary["trials"]["count"].get<int>() < 2) return;
   answer("\n");
   print_summary(summary, result.folder);
@@ -126,10 +124,8 @@ void print_figures(const RunResult& result) {
 /// the way of the experiment or the page is told before either is written.
 void write_experiment(const std::string& file, const std::string& content, bool replace,
                       const ReportOptions& report) {
-  std::ostringstream before;
-  before << std::ifstream(file).rdbuf();
   AtomicFiles files(replace);
-  if (before.str() != content) files.add(file, content);
+  if (content_of(file) != content) files.add(file, content);
   AtomicFiles(report.files.replace).check(report.out);
   files.commit();
 }

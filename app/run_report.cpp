@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "app/standard_streams.hpp"
+#include "evaluation/results/file_io.hpp"
 #include "evaluation/results/summary_text.hpp"
 
 namespace glocal::app {
@@ -24,10 +24,8 @@ void print_summary(const nlohmann::ordered_json& summary, const std::filesystem:
 
 void print_result(const RunResult& result) {
   std::vector<std::pair<std::string, nlohmann::ordered_json>> summaries;
-  for (const VariantResult& variant : result.variants) {
-    std::ifstream file(variant.summary);
-    summaries.emplace_back(variant.name, nlohmann::ordered_json::parse(file));
-  }
+  for (const VariantResult& variant : result.variants)
+    summaries.emplace_back(variant.name, nlohmann::ordered_json::parse(content_of(variant.summary)));
   const std::filesystem::path folder = std::filesystem::absolute(result.folder).lexically_normal();
   if (summaries.front().first.empty()) {
     print_summary(summaries.front().second, folder);
