@@ -17,10 +17,15 @@
 #include "evaluation/results/results_folder.hpp"
 #include "evaluation/running/experiment_loader.hpp"
 #include "glocal/points.hpp"
-#include "report/run_progress.hpp"
 #include "report/step_columns.hpp"
 
 namespace glocal {
+
+/// How far a run is, of all its variants.
+struct RunProgress {
+  std::size_t finished = 0, trials = 0;
+  std::optional<double> remaining_s = {};  ///< None as long as it cannot be told.
+};
 
 /// The data of a report, of a run that is not over. Calls may come from any thread; a step costs those who
 /// run it no more than its numbers and a copy of its points: the rest is the work of who asks.
