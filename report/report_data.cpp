@@ -105,8 +105,8 @@ StoredRun ReportData::read_files(Run& run, FaultCollector& faults) const {
 }
 
 void ReportData::read_map(Run& run, FaultCollector& faults) {
-  const fs::path points = run.folder / map_points_file();
-  const fs::path grid = run.folder / map_grid_file();
+  const fs::path points = run.folder / map_points_file;
+  const fs::path grid = run.folder / map_grid_file;
   std::error_code unreachable;
   if (!fs::exists(points, unreachable)) return;
   faults.collect([&] {

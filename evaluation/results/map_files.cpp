@@ -84,9 +84,9 @@ Json read_grid(const std::filesystem::path& file) {
 
 std::vector<std::pair<std::string, std::string>> map_files(const GlobalMap& map) {
   std::vector<std::pair<std::string, std::string>> files = {
-      {map_points_file().string(), pcd(map.points(), map.origin())}};
+      {map_points_file, pcd(map.points(), map.origin())}};
   if (!map.grid().cells.empty())
-    files.emplace_back(map_grid_file().string(), grid_json(map.grid(), map.origin()).dump() + "\n");
+    files.emplace_back(map_grid_file, grid_json(map.grid(), map.origin()).dump() + "\n");
   return files;
 }
 

@@ -12,15 +12,9 @@
 
 namespace glocal {
 
-/// Where a results folder has the map's points, as PCD.
-[[nodiscard]] inline std::filesystem::path map_points_file() {
-  return "maps/global.pcd";
-}
-
-/// Where a results folder has the map's cells, as grid_json().
-[[nodiscard]] inline std::filesystem::path map_grid_file() {
-  return "maps/global_grid.json";
-}
+/// Where a results folder has the map's points, as PCD, and its cells, as grid_json().
+inline constexpr const char* map_points_file = "maps/global.pcd";
+inline constexpr const char* map_grid_file = "maps/global_grid.json";
 
 /// A grid with its cells as run lengths: "12u3f" is 12 unknown cells and then 3 free ones ('o': occupied),
 /// row by row as in OccupancyGrid, runs going on in the next row. Its corner is in the map's frame, while the

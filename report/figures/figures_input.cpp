@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "evaluation/results/map_files.hpp"
 #include "evaluation/results/pcd.hpp"
 #include "evaluation/results/results_folder.hpp"
 
@@ -66,7 +67,7 @@ void check_files(const fs::path& folder, std::size_t trial) {
 void check_point_clouds(const fs::path& folder, std::size_t trial, FaultCollector& faults) {
   std::vector<fs::path> files;
   std::error_code unreachable;
-  if (const fs::path global = folder / "maps/global.pcd"; fs::exists(global, unreachable))
+  if (const fs::path global = folder / map_points_file; fs::exists(global, unreachable))
     files.push_back(global);
   const fs::path local = folder / fmt::format("maps/trial_{:04}", trial);
   for (const auto& entry : fs::directory_iterator(local, unreachable)) {
