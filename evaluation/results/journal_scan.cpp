@@ -99,10 +99,7 @@ void JournalScan::find_journals() {
   const fs::file_time_type now = now_at(folder_);
   for (const auto& [name, is_closed] : found) {
     const auto [known, is_new] = known_.try_emplace(name, journals_.size());
-    if (is_new) {
-      journals_.emplace_back();
-      indexes_.emplace_back();
-    }
+    if (is_new) journals_.emplace_back();
     Journal& journal = journals_[known->second];
     journal.is_closed = is_closed;
     const std::string_view end = is_closed ? journal_end : unfinished_journal_end;
@@ -133,7 +130,7 @@ void JournalScan::read(std::size_t journal) {
     if (n == 0) break;
   }
   journals_[journal].read = at;
-  if (journals_[journal].is_closed) update_index(journal);
+  if (journals_[journal].is_closed) update_index(journals_[journal]);
 }
 
 /// False if there is no index that is as its journal: what was changed since is read. Times of files go by
@@ -153,12 +150,12 @@ bool JournalScan::take_index(std::size_t journal) {
   return true;
 }
 
-void JournalScan::update_index(std::size_t journal) {
-  std::string& text = indexes_[journal];
-  const fs::path index = index_of(journals_[journal].file);
+void JournalScan::update_index(Journal& journal) {
+  std::string& text = journal.index;
+  const fs::path index = index_of(journal.file);
   std::error_code ignored;
-  if (damaged_.contains(journal)) fs::remove(index, ignored);
-  if (closed_ == Closed::indexed && !damaged_.contains(journal) && !text.empty()) {
+  if (journal.is_damaged) fs::remove(index, ignored);
+  if (closed_ == Closed::indexed && !journal.is_damaged && !text.empty()) {
     try {
       write_file(index, checksum(text) + " " + text);
     } catch (const RunError&) {
@@ -174,7 +171,7 @@ void JournalScan::take_line(std::size_t journal, std::uint64_t offset, std::stri
     if (!content) throw std::invalid_argument("its checksum is another one");
     take_content(journal, offset + (line.size() - content->size()), *content);
   } catch (const std::exception& damage) {
-    damaged_.insert(journal);
+    journals_[journal].is_damaged = true;
     warn_(fmt::format("{}: byte {}: the line is damaged ({}); what it told is run again",
                       journals_[journal].file.string(), offset, reason(damage)));
   }
@@ -234,9 +231,9 @@ void JournalScan::take_content(std::size_t journal, std::optional<std::uint64_t>
   }
   if (placed) {
     content.remove_suffix(rest.size());
-    indexes_[journal] += fmt::format("{}{} {}\n", content, placed->offset, placed->size);
+    journals_[journal].index += fmt::format("{}{} {}\n", content, placed->offset, placed->size);
   } else if (offset) {
-    indexes_[journal] += fmt::format("{}\n", content);
+    journals_[journal].index += fmt::format("{}\n", content);
   }
 }
 

@@ -7,7 +7,6 @@
 #include <functional>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -31,7 +30,9 @@ class JournalScan {
     bool is_closed = false;  ///< Its writer is done.
     /// Its writer is at work: the file was written, or touched, not long ago by the clock of its server.
     bool is_live = false;
-    std::uint64_t read = 0;  ///< Bytes.
+    std::uint64_t read = 0;   ///< Bytes.
+    bool is_damaged = false;  ///< Some of its lines are.
+    std::string index = {};   ///< What was read of it since the last index, with places instead of outputs.
   };
   /// Part of a line.
   struct Place {
@@ -82,15 +83,13 @@ class JournalScan {
   void take_line(std::size_t journal, std::uint64_t offset, std::string_view line);
   void take_content(std::size_t journal, std::optional<std::uint64_t> offset, std::string_view content);
   [[nodiscard]] bool take_index(std::size_t journal);
-  void update_index(std::size_t journal);
+  void update_index(Journal& journal);
   [[nodiscard]] int descriptor_of(std::size_t journal) const;
 
   std::filesystem::path folder_;
   std::function<void(const std::string&)> warn_;
   Closed closed_;
   std::vector<Journal> journals_;
-  std::vector<std::string> indexes_;          ///< What was read of each, with places instead of outputs.
-  std::set<std::size_t> damaged_;             ///< Journals.
   std::map<std::string, std::size_t> known_;  ///< By the name that a file has when it is closed.
   std::unordered_map<TrialId, Finished, TrialIdHash> finished_;
   std::unordered_map<TrialId, Place, TrialIdHash> begun_;
