@@ -76,8 +76,7 @@ void mapping(const MappingOptions& options, Context& context) {
   } else {
     answer(
         "Error of the local map's robot pose after {} m, starts every {} m; failures ({} m or {} deg) after "
-        "{} "
-        "m.\n",
+        "{} m.\n",
         options.windows.after_m, options.windows.every_m, options.windows.fail_translation,
         options.windows.fail_rotation_deg, options.windows.fail_after_m);
   }

@@ -62,8 +62,7 @@ std::optional<std::string> shift_warning(const CaseFacts& facts) {
   if (std::abs(scans.shift_s) >= least_s && scans.fit - scans.fit_unshifted >= least_fit_gain)
     return fmt::format(
         "the scans fit each other better if the reference's stamps are moved by {:.2f} s ({:.0f} % instead "
-        "of "
-        "{:.0f} %): give --shift {:.2f}",
+        "of {:.0f} %): give --shift {:.2f}",
         scans.shift_s, percent(scans.fit), percent(scans.fit_unshifted), facts.shift_s + scans.shift_s);
   const auto& odometry = facts.odometry_shift;
   if (!odometry || std::abs(odometry->shift_s) < least_s ||

@@ -75,8 +75,7 @@ PythonWithPackage find_python() {
   }
   throw std::runtime_error(
       fmt::format("strategies in Python need the package glocal ({}); install it, as docs/python.md tells, "
-                  "or name a Python that has "
-                  "it in the environment variable GLOCAL_PYTHON",
+                  "or name a Python that has it in the environment variable GLOCAL_PYTHON",
                   tried));
 }
 

@@ -103,8 +103,7 @@ std::string per_cent(const Json& share) {
 
 std::string markdown_head() {
   return "| run | starts | right | wrong | undecided | wrong (95 % interval) | steps, way to localize "
-         "(median) | "
-         "error then (median) | a step (median) |\n|---|---|---|---|---|---|---|---|---|\n";
+         "(median) | error then (median) | a step (median) |\n|---|---|---|---|---|---|---|---|---|\n";
 }
 
 std::string markdown_row(const Json& row) {
