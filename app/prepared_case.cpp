@@ -29,6 +29,14 @@ std::vector<Pose3> references_of(const std::vector<TrackedScan>& scans) {
   return poses;
 }
 
+/// Length of the way through places at least 0.25 m apart, so that noise does not add up, m.
+double way_of(const std::vector<Pose3>& poses) {
+  const std::vector<Pose3> path = sparse_path(poses);
+  double way = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) way += distance(path[i - 1], path[i]);
+  return way;
+}
+
 double percent(double share) {
   return 100.0 * share;
 }
@@ -79,13 +87,6 @@ std::optional<std::string> shift_warning(const CaseFacts& facts) {
 }
 
 }  // namespace
-
-double way_of(const std::vector<Pose3>& poses) {
-  const std::vector<Pose3> path = sparse_path(poses);
-  double way = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) way += distance(path[i - 1], path[i]);
-  return way;
-}
 
 std::string case_experiment(const CaseFacts& facts, const Catalog& catalog) {
   const std::string map_segments = segments_yaml(facts.split.map),

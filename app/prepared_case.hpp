@@ -42,9 +42,6 @@ struct CaseFacts {
   std::size_t map_points = 0, observations = 0, starts = 0;
 };
 
-/// Length of the way through places at least 0.25 m apart, so that noise does not add up, m.
-[[nodiscard]] double way_of(const std::vector<Pose3>& poses);
-
 /// As `glocal run` reads it, with paths from the case's folder on.
 [[nodiscard]] std::string case_experiment(const CaseFacts& facts, const Catalog& catalog);
 
