@@ -85,9 +85,8 @@ double median_step_cpu_ms(const TrialRecord& record) {
 
 /// Runs a trial, and keeps its time where the stored results have it.
 void take_time(Rerun& rerun, std::size_t trial) {
-  const auto record =
-      run_trial(rerun.localizer, rerun.loaded.drive, *rerun.loaded.map, rerun.experiment, trial,
-                rerun.loaded.starts[trial], {[](const auto&, const auto&) {}, [] { return false; }});
+  const auto record = run_trial(rerun.localizer, rerun.loaded.drive, *rerun.loaded.map, rerun.experiment,
+                                trial, rerun.loaded.starts[trial], {});
   auto& stored = rerun.of.results.trials;
   const auto at =
       stored.find({static_cast<std::int64_t>(record->start_sample), record->start_m, record->start_stamp});
