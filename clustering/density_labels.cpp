@@ -103,7 +103,7 @@ class DensityLabels {
   void join(const std::vector<std::size_t>& a, const std::vector<std::size_t>& b) {
     if (sets_.find(a.front()) == sets_.find(b.front())) return;
     for (const std::size_t i : a) {
-      if (std::any_of(b.begin(), b.end(), [&](std::size_t j) { return are_near(i, j); })) {
+      if (std::ranges::any_of(b, [&](std::size_t j) { return are_near(i, j); })) {
         sets_.unite(i, b.front());
         return;
       }

@@ -188,7 +188,7 @@ void SurfaceMap::update_normals(const std::vector<std::size_t>& points, const Po
   std::vector<std::uint32_t> numbers;
   numbers.reserve(points.size());
   for (const std::size_t i : points) numbers.push_back(numbers_.find(block_of(cell_of(map_.points[i]))));
-  std::sort(numbers.begin(), numbers.end());
+  std::ranges::sort(numbers);
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   for (const std::uint32_t number : numbers) {
     const Points around = points_around(blocks_[number].front());

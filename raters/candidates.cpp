@@ -12,7 +12,7 @@ namespace {
 std::size_t count_places(const std::vector<Pose3>& poses) {
   std::vector<Pose3> places;
   for (const Pose3& pose : poses) {
-    const bool is_new = std::none_of(places.begin(), places.end(), [&](const Pose3& place) {
+    const bool is_new = std::ranges::none_of(places, [&](const Pose3& place) {
       return distance(pose, place) < PoseTolerance::default_translation;
     });
     if (is_new) places.push_back(pose);

@@ -63,7 +63,7 @@ std::vector<Pose3> ConsecutiveRating::candidates(const StepResult& step) const {
   const double least = candidate_share * step.ratings.front().r;
   for (std::size_t i = 0; i < step.clusters.size() && step.ratings[i].r >= least; ++i) {
     const Pose3& pose = step.clusters[i].map_from_robot;
-    if (std::none_of(poses.begin(), poses.end(), [&](const Pose3& other) { return are_same(pose, other); })) {
+    if (std::ranges::none_of(poses, [&](const Pose3& other) { return are_same(pose, other); })) {
       poses.push_back(pose);
     }
   }

@@ -301,7 +301,7 @@ bool StagedMargin::Stages::is_reached(double margin, double driven, bool is_look
 }
 
 bool StagedMargin::Stages::is_lost() const {
-  return std::all_of(kept_.begin(), kept_.end(), [](const Kept& kept) { return kept.steps == 0; });
+  return std::ranges::all_of(kept_, [](const Kept& kept) { return kept.steps == 0; });
 }
 
 std::size_t StagedMargin::Stages::least_steps() const {
@@ -332,7 +332,7 @@ Verdict StagedMargin::undecided(const StepResult& step, double margin) const {
 /// Poses below Omega_max are not among the hypotheses: without a rival there, the best one may still have it.
 double StagedMargin::margin_of(const StepResult& step) const {
   const Hypothesis& best = step.hypotheses.front();
-  const auto rival = std::find_if(step.hypotheses.begin(), step.hypotheses.end(), [&](const Hypothesis& h) {
+  const auto rival = std::ranges::find_if(step.hypotheses, [&](const Hypothesis& h) {
     return !near.are_near(h.map_from_robot, best.map_from_robot);
   });
   return best.score - (rival == step.hypotheses.end() ? step.omega_max : rival->score);
@@ -343,9 +343,8 @@ std::vector<Pose3> StagedMargin::candidates(const StepResult& step) const {
   std::vector<Pose3> poses;
   for (const Hypothesis& h : step.hypotheses) {
     if (h.score < step.hypotheses.front().score - candidate_margin) break;
-    const bool repeats = std::any_of(poses.begin(), poses.end(), [&](const Pose3& other) {
-      return near.are_near(h.map_from_robot, other);
-    });
+    const bool repeats = std::ranges::any_of(
+        poses, [&](const Pose3& other) { return near.are_near(h.map_from_robot, other); });
     if (!repeats) poses.push_back(h.map_from_robot);
   }
   return poses;

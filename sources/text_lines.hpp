@@ -26,7 +26,7 @@ void split_fields(std::string_view line, std::vector<std::string_view>& fields);
 template <class Enum>
 [[nodiscard]] std::optional<Enum> value_named(std::string_view word,
                                               std::initializer_list<std::string_view> names) {
-  const auto* const at = std::find(names.begin(), names.end(), word);
+  const auto* const at = std::ranges::find(names, word);
   if (at == names.end()) return std::nullopt;
   return static_cast<Enum>(at - names.begin());
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -78,8 +79,7 @@ class FeatureMatcher final : public Matcher {
       if (omega >= request.omega_max)
         result.hypotheses.push_back(Hypothesis::by_contact(map_from_local, omega));
     }
-    std::stable_sort(result.hypotheses.begin(), result.hypotheses.end(),
-                     [](const Hypothesis& a, const Hypothesis& b) { return a.score > b.score; });
+    std::ranges::stable_sort(result.hypotheses, std::greater<>(), &Hypothesis::score);
     return result;
   }
   void reset() override {}

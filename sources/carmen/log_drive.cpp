@@ -11,7 +11,7 @@ namespace {
 /// A logger that writes ROBOTLASER1 lines often writes the same scans as FLASER lines too.
 std::vector<CarmenScan> of_laser(std::vector<CarmenScan> scans, const std::string& laser) {
   const auto has = [&](CarmenLaser kind) {
-    return std::any_of(scans.begin(), scans.end(), [&](const CarmenScan& s) { return s.laser == kind; });
+    return std::ranges::any_of(scans, [&](const CarmenScan& s) { return s.laser == kind; });
   };
   CarmenLaser kind = CarmenLaser::rlaser;
   if (laser == "front") kind = has(CarmenLaser::flaser) ? CarmenLaser::flaser : CarmenLaser::robotlaser1;

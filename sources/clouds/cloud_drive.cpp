@@ -129,9 +129,8 @@ Scan CloudDrive::scan_of(const Cloud& cloud) const {
   const double min_squared = min_range * min_range;
   const double max_squared = params_.max_range * params_.max_range;
   const bool has_times = !cloud.times.empty();
-  const double stamp = has_times && params_.stamp_of == "last_point"
-                           ? *std::max_element(cloud.times.begin(), cloud.times.end())
-                           : 0.0;
+  const double stamp =
+      has_times && params_.stamp_of == "last_point" ? *std::ranges::max_element(cloud.times) : 0.0;
   Points in_range;
   Scan scan;
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {

@@ -42,7 +42,7 @@ bool set_stamps(std::vector<DriveCloud>& clouds) {
 }
 
 void sort_clouds(std::vector<DriveCloud>& clouds, bool have_stamps) {
-  std::sort(clouds.begin(), clouds.end(), [&](const DriveCloud& a, const DriveCloud& b) {
+  std::ranges::sort(clouds, [&](const DriveCloud& a, const DriveCloud& b) {
     return have_stamps && a.stamp != b.stamp ? a.stamp < b.stamp : a.file < b.file;
   });
   for (std::size_t i = 0; i < clouds.size(); ++i) {
@@ -87,8 +87,7 @@ bool are_counts_and_times(const std::vector<DriveCloud>& clouds, const std::vect
   const auto is_whole = [](const auto& stamped) {
     return std::abs(stamped.stamp - std::round(stamped.stamp)) <= max_stamp_difference;
   };
-  return std::all_of(clouds.begin(), clouds.end(), is_whole) &&
-         !std::all_of(poses.begin(), poses.end(), is_whole);
+  return std::ranges::all_of(clouds, is_whole) && !std::ranges::all_of(poses, is_whole);
 }
 
 /// Whether the `near` clouds that have a stamp near their number have it by chance.
@@ -166,8 +165,7 @@ std::vector<DriveCloud> drive_clouds(const DriveFiles& files, const Warn& warn) 
   if (!files.odometry.empty()) {
     const std::size_t given = give_poses(clouds, have_stamps, files.odometry, files, &DriveCloud::odometry);
     if (given < clouds.size()) {
-      const auto without =
-          std::find_if(clouds.begin(), clouds.end(), [](const DriveCloud& c) { return !c.odometry; });
+      const auto without = std::ranges::find_if(clouds, [](const DriveCloud& c) { return !c.odometry; });
       throw ConfigError(
           files.odometry,
           fmt::format("has a pose for {} of {} clouds; there is none within {} s of '{}'; move the "

@@ -72,7 +72,7 @@ class PairsReader {
   }
 
   [[nodiscard]] std::optional<std::size_t> column(std::string_view name) const {
-    const auto at = std::find(names_.begin(), names_.end(), name);
+    const auto at = std::ranges::find(names_, name);
     return at == names_.end() ? std::nullopt : std::optional(static_cast<std::size_t>(at - names_.begin()));
   }
 

@@ -34,7 +34,7 @@ template <class T>
 [[nodiscard]] T number_at(const char* bytes, std::endian order) {
   std::array<char, sizeof(T)> own{};
   std::copy_n(bytes, sizeof(T), own.begin());
-  if (order != std::endian::native) std::reverse(own.begin(), own.end());
+  if (order != std::endian::native) std::ranges::reverse(own);
   return std::bit_cast<T>(own);
 }
 /// The number in the `size_of(type)` bytes that begin here.

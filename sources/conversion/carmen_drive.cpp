@@ -106,7 +106,7 @@ CarmenScan carmen_scan(const DriveScan& scan, const DriveSensor& sensor, const s
   if (out.angle_step < 0.0) {
     out.start_angle += span;
     out.angle_step = -out.angle_step;
-    std::reverse(out.ranges.begin(), out.ranges.end());
+    std::ranges::reverse(out.ranges);
   }
   if (!(out.angle_step > 0.0) || std::abs(span) > 2.0 * std::numbers::pi + 1e-6)
     throw ConfigError(file,
@@ -124,7 +124,7 @@ CarmenDriveReader::CarmenDriveReader(const std::filesystem::path& file, double m
     : max_range_(max_range), scans_(carmen::read_carmen_log(file)) {
   for (const CarmenScan& scan : scans_) check_stamp(scan.stamp, file.string(), scan.line);
   const auto has = [&](CarmenLaser laser) {
-    return std::any_of(scans_.begin(), scans_.end(), [&](const CarmenScan& s) { return s.laser == laser; });
+    return std::ranges::any_of(scans_, [&](const CarmenScan& s) { return s.laser == laser; });
   };
   if (has(CarmenLaser::flaser))
     std::erase_if(scans_, [](const CarmenScan& s) { return s.laser == CarmenLaser::robotlaser1; });

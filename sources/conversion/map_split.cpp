@@ -11,7 +11,7 @@ namespace {
 
 /// Whether a place of the drive, as a share of its path, is in one of the segments.
 bool contains(const PathSegments& segments, double share) {
-  return std::any_of(segments.begin(), segments.end(), [&](const auto& segment) {
+  return std::ranges::any_of(segments, [&](const auto& segment) {
     return share >= segment[0] && (share < segment[1] || segment[1] >= 1.0);
   });
 }
@@ -37,10 +37,10 @@ double share_near_map(const std::vector<TrackedScan>& scans, const MapSplit& spl
   mapped = sparse_path(mapped);
   driven = sparse_path(driven);
   const auto is_near = [&](const Pose3& pose) {
-    return std::any_of(mapped.begin(), mapped.end(),
-                       [&](const Pose3& place) { return distance(place, pose) <= near_map_m; });
+    return std::ranges::any_of(mapped,
+                               [&](const Pose3& place) { return distance(place, pose) <= near_map_m; });
   };
-  const auto near = std::count_if(driven.begin(), driven.end(), is_near);
+  const auto near = std::ranges::count_if(driven, is_near);
   return driven.empty() ? 0.0 : static_cast<double>(near) / static_cast<double>(driven.size());
 }
 

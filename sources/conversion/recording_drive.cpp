@@ -50,9 +50,7 @@ std::optional<DriveScan> RecordingDriveReader::next() {
 }
 
 std::optional<DriveScan> RecordingDriveReader::scan_of(const bags::RecordedMessage& message) {
-  const auto sensor = std::find_if(sensors_.begin(), sensors_.end(), [&](const DriveSensor& s) {
-    return s.topic == message.connection->topic;
-  });
+  const auto sensor = std::ranges::find(sensors_, message.connection->topic, &DriveSensor::topic);
   DriveScan scan;
   scan.sensor = static_cast<std::size_t>(sensor - sensors_.begin());
   bags::Header header;

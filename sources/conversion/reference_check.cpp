@@ -133,7 +133,7 @@ std::optional<TimeShift> time_shift_of(const DriveTrack& drive, const ReferenceP
   std::vector<double> correlations;
   for (int i = -steps; i <= steps; ++i)
     correlations.push_back(correlation_at(stretches, references, i * step_ns).value_or(-1.0));
-  const auto best = std::max_element(correlations.begin(), correlations.end());
+  const auto best = std::ranges::max_element(correlations);
   const bool is_inside = best != correlations.begin() && best + 1 != correlations.end();
   if (!unshifted || !is_inside || *best < least_correlation) return std::nullopt;
   const double index = static_cast<double>(best - correlations.begin()) - steps +
@@ -179,7 +179,7 @@ std::optional<RelationErrors> relation_errors(const std::vector<Relation>& relat
   const auto mean = [](const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
   };
-  std::sort(ways.begin(), ways.end());
+  std::ranges::sort(ways);
   return RelationErrors{ways.size(), mean(ways), ways[(ways.size() - 1) * 95 / 100], mean(turns)};
 }
 

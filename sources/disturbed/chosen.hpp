@@ -45,7 +45,7 @@ template <class Kinds>
 /// That of this name, which is there.
 template <class Kinds>
 [[nodiscard]] const auto& kind_named(const std::string& name, const Kinds& kinds) {
-  return *std::find_if(kinds.begin(), kinds.end(), [&](const Kind& kind) { return kind.name == name; });
+  return *std::ranges::find(kinds, name, &Kind::name);
 }
 
 }  // namespace glocal::disturbed

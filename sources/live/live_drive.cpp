@@ -112,7 +112,7 @@ void LiveDrive::choose_scans(const std::vector<LiveTopic>& there) {
   if (are_scans_chosen() || there.empty()) return;
   if (!first_scans_seen_) first_scans_seen_ = Clock::now();
   const bool has_heard_all = !link_->is_live() || Clock::now() - *first_scans_seen_ >= time_to_hear_of_topics;
-  const auto named = std::find_if(there.begin(), there.end(), [&](const LiveTopic& topic) {
+  const auto named = std::ranges::find_if(there, [&](const LiveTopic& topic) {
     return topics_.scans.empty() ? has_heard_all : topic.name == topics_.scans;
   });
   if (named == there.end()) return;

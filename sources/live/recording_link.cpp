@@ -96,8 +96,7 @@ std::vector<LiveTopic> RecordingLink::topics() {
   for (const bags::Connection& connection : recording_.connections()) {
     if (bags::is_readable(connection)) topics.push_back(topic_of(connection));
   }
-  std::sort(topics.begin(), topics.end(),
-            [](const LiveTopic& a, const LiveTopic& b) { return a.name < b.name; });
+  std::ranges::sort(topics, {}, &LiveTopic::name);
   topics.erase(std::unique(topics.begin(), topics.end()), topics.end());
   return topics;
 }

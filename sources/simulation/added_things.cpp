@@ -107,8 +107,8 @@ std::vector<Rectangle> drawn_boxes(int count, const OccupancyGrid& grid, const C
     }
     const Rectangle box = drawn_box(region, rng);
     const std::vector<std::size_t> cells = cells_under(box, grid);
-    const bool has_room = !cells.empty() && std::all_of(cells.begin(), cells.end(),
-                                                        [&](std::size_t i) { return is_taken[i] == 0; });
+    const bool has_room =
+        !cells.empty() && std::ranges::all_of(cells, [&](std::size_t i) { return is_taken[i] == 0; });
     if (!has_room) continue;
     for (const std::size_t i : cells) is_taken[i] = 1;
     boxes.push_back(box);

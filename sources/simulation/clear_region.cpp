@@ -204,7 +204,7 @@ std::vector<std::uint32_t> ClearRegion::cells_between(std::uint32_t from, std::u
     cells.push_back(static_cast<std::uint32_t>(row_of(cells.back()) - step.rows) * width +
                     static_cast<std::uint32_t>(column_of(cells.back()) - step.columns));
   }
-  std::reverse(cells.begin(), cells.end());
+  std::ranges::reverse(cells);
   return cells;
 }
 

@@ -71,9 +71,8 @@ void describe_drive(ParamVisitor& v, DriveParams& p) {
            .min = 0.0,
            .max = 3600.0,
            .audience = Audience::expert});
-  v.require(std::is_sorted(p.kidnappings.begin(), p.kidnappings.end(),
-                           [](const Kidnapping& a, const Kidnapping& b) { return a.after_m < b.after_m; }),
-            "kidnappings", "must be in rising order of after_m");
+  v.require(std::ranges::is_sorted(p.kidnappings, {}, &Kidnapping::after_m), "kidnappings",
+            "must be in rising order of after_m");
 }
 
 }  // namespace

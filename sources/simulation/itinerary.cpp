@@ -37,9 +37,8 @@ std::optional<Position> Itinerary::next() {
 }
 
 void Itinerary::go_on_near(const Position& place) {
-  const auto nearest = std::min_element(
-      way_points_.begin(), way_points_.end(),
-      [&](const Position& a, const Position& b) { return distance(place, a) < distance(place, b); });
+  const auto nearest =
+      std::ranges::min_element(way_points_, {}, [&](const Position& p) { return distance(place, p); });
   at_ = static_cast<std::size_t>(nearest - way_points_.begin());
   from_.reset();
   has_to_get_there_ = true;

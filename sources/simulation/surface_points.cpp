@@ -102,7 +102,7 @@ void add_floor(const World& world, const OccupancyGrid& plan, SurfacePainter& pa
 }
 
 bool is_mapped(const World& world, const Point& p) {
-  return std::none_of(world.unmapped.begin(), world.unmapped.end(), [&](const UnmappedArea& area) {
+  return std::ranges::none_of(world.unmapped, [&](const UnmappedArea& area) {
     const auto [left, right] = std::minmax(area.corners[0][0], area.corners[1][0]);
     const auto [low, high] = std::minmax(area.corners[0][1], area.corners[1][1]);
     return p.x >= left && p.x <= right && p.y >= low && p.y <= high;

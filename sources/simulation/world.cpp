@@ -84,7 +84,7 @@ Position walked(const std::vector<Position>& points, double way) {
 bool inside(const World& world, const std::vector<Position>& points) {
   // Without a usable size, only that is reported. A cloud lies where it lies.
   if (world.size.size() != 2 || !world.cloud.text.empty()) return true;
-  return std::all_of(points.begin(), points.end(), [&](const Position& p) {
+  return std::ranges::all_of(points, [&](const Position& p) {
     return p[0] >= 0.0 && p[0] <= world.size[0] && p[1] >= 0.0 && p[1] <= world.size[1];
   });
 }

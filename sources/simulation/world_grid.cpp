@@ -233,7 +233,7 @@ OccupancyGrid floor_near(const std::vector<Position>& places, const World& world
   for (const Position& place : places) is_place[*cell_under(place, raster.grid())] = 1;
   const std::vector<char> is_near = grown(is_place, near_places, raster.grid());
   const std::vector<char> is_over_floor = cells_over_floor(raster.grid(), is_near, cloud, world.floor);
-  if (std::find(is_over_floor.begin(), is_over_floor.end(), 1) == is_over_floor.end())
+  if (std::ranges::find(is_over_floor, 1) == is_over_floor.end())
     throw ConfigError(file,
                       fmt::format("cloud: has no points within {} m of the floor of {} m near the drive, so "
                                   "that boxes and people have nothing to stand on; change floor, leave them "

@@ -72,9 +72,8 @@ class Layout {
   /// Whether there was room.
   bool put(const Piece& piece) {
     const auto is_in_the_way = [&](const Piece& other) { return overlap(piece, other); };
-    const bool fits = is_within_walls(piece) &&
-                      std::none_of(area_.keep_free.begin(), area_.keep_free.end(), is_in_the_way) &&
-                      std::none_of(pieces_.begin(), pieces_.end(), is_in_the_way);
+    const bool fits = is_within_walls(piece) && std::ranges::none_of(area_.keep_free, is_in_the_way) &&
+                      std::ranges::none_of(pieces_, is_in_the_way);
     if (fits) pieces_.push_back(piece);
     return fits;
   }

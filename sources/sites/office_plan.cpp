@@ -247,7 +247,7 @@ std::vector<double> pillars_of(const OfficePlan& plan) {
   std::vector<double> pillars;
   for (double x = plan.x.from + spacing; x < plan.x.to; x += spacing) {
     const auto is_in_wing = [&](const Span& wing) { return x - half > wing.from && x + half < wing.to; };
-    if (std::any_of(plan.wings.begin(), plan.wings.end(), is_in_wing)) pillars.push_back(x);
+    if (std::ranges::any_of(plan.wings, is_in_wing)) pillars.push_back(x);
   }
   return pillars;
 }

@@ -27,7 +27,7 @@ class Tour {
       if (room.way_in() > 0.0) open_rooms_[room.corridor].push_back(&room);
     }
     for (std::vector<const Room*>& rooms : open_rooms_)
-      std::sort(rooms.begin(), rooms.end(), [](const Room* a, const Room* b) { return door(*a) < door(*b); });
+      std::ranges::sort(rooms, {}, [](const Room* room) { return door(*room); });
     at_ = drawn_crossing();
     go(place(at_));
   }
@@ -115,7 +115,7 @@ class Tour {
 
   void visit_some(std::size_t wing, bool goes_right) {
     std::vector<const Room*> rooms = open_rooms(wing);
-    if (!goes_right) std::reverse(rooms.begin(), rooms.end());
+    if (!goes_right) std::ranges::reverse(rooms);
     const double lane = drawn_lane();
     for (const Room* room : rooms) {
       if (rng_.uniform() < visited) visit(*room, lane);
