@@ -20,7 +20,7 @@ constexpr int max_steps = 20;
 constexpr double converged_m = 1e-4;
 constexpr double converged_rad = 1e-4;
 
-/// NormalSums in plain doubles, which the compiler keeps in registers.
+/// The normal equations in plain doubles, which the compiler keeps in registers.
 class NormalSums {
  public:
   explicit NormalSums(double kernel) : kernel_squared_(kernel * kernel) {}
