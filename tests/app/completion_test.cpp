@@ -1,7 +1,6 @@
 // glocal complete, glocal completion.
 #include <gmock/gmock.h>
 
-#include <algorithm>
 #include <sstream>
 
 #include "app/program.hpp"

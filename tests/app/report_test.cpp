@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
 #include <utility>

@@ -10,7 +10,6 @@ namespace {
 using testing::AllOf;
 using testing::EndsWith;
 using testing::HasSubstr;
-using testing::Not;
 using testing::StartsWith;
 
 Json right(int steps, double distance_m, double translation_m, double rotation_deg) {

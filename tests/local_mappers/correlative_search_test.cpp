@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "local_mappers/rooms.hpp"
 
 namespace glocal::local_mappers::correlative_search_test {

@@ -1,8 +1,6 @@
 // plugins/pcl, as users have it: a plugin's strategies, chosen by name.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "files.hpp"
 #include "glocal/builtin.hpp"
 #include "glocal/yaml.hpp"

@@ -19,7 +19,6 @@ namespace {
 using bags::Writer;
 using std::chrono::milliseconds;
 using testing::AllOf;
-using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;

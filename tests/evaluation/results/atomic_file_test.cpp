@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include <fstream>
 #include <iterator>
 
 #include "evaluation/results/file_io.hpp"

@@ -7,7 +7,6 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <thread>
 
 #include "evaluation/results/file_io.hpp"
 #include "temporary_folder.hpp"

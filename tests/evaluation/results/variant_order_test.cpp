@@ -2,8 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <algorithm>
-
 #include "temporary_folder.hpp"
 
 namespace glocal::test::variant_order_test {

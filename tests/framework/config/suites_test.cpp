@@ -15,7 +15,6 @@
 namespace glocal::test::suites_test {
 namespace {
 
-namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::HasSubstr;
 

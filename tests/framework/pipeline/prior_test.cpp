@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <memory>
 #include <numbers>
 
 #include "glocal/pose2.hpp"

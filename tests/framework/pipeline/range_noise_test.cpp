@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <vector>
 
 #include "glocal/pose2.hpp"
 #include "glocal/rng.hpp"

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <string>
 
 #include "matchers/same_answer.hpp"
 #include "test_world.hpp"

@@ -4,8 +4,6 @@
 #include <gtest/gtest.h>
 #include <sqlite3.h>
 
-#include <map>
-
 #include "files.hpp"
 #include "sources/bags/messages.hpp"
 #include "sources/bags/recordings.hpp"

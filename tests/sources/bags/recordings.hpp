@@ -6,7 +6,6 @@
 #include <zlib.h>
 #include <zstd.h>
 
-#include <bit>
 #include <cstdint>
 #include <cstring>
 #include <string>

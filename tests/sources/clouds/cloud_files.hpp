@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <string>
-#include <type_traits>
 
 namespace glocal::test {
 

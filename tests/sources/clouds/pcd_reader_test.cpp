@@ -1,8 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "files.hpp"
 #include "sources/clouds/cloud_files.hpp"
 #include "sources/clouds/cloud_formats.hpp"

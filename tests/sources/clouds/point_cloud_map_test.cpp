@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "evaluation/results/pcd.hpp"
 #include "files.hpp"
 

@@ -2,9 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "files.hpp"
 #include "glocal/error.hpp"

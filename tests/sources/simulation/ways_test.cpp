@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <utility>
-
 #include "sources/plan.hpp"
 
 namespace glocal::simulation::ways_test {
