@@ -32,6 +32,15 @@ def run(room, tmp_path, **changes):
     return glocal.Experiment.load(room).with_(**changes).run(tmp_path / "out", force=True)
 
 
+def first_step(room, **changes):
+    experiment = glocal.Experiment.load(room).with_(**changes)
+    return experiment.localizer().step(experiment.load_samples()[0].observation)
+
+
+def define(**members):
+    return type("Made", (glocal.Clusterer,), {"__doc__": "Does something.", "cluster": lambda s, h, r: h, **members})
+
+
 def numbers_of(table):
     """As text, in which NaN is NaN."""
     return repr({name: column.tolist() for name, column in table.items()})
@@ -72,8 +81,7 @@ def test_labels_may_be_any_integers_and_clusters_have_the_members_they_name(room
         def cluster(self, hypotheses, rng):
             return np.where(hypotheses.heading > 0, 10**12, -5)
 
-    experiment = glocal.Experiment.load(room).with_(**{"localizer.clusterer": "by_heading"})
-    step = experiment.localizer().step(experiment.load_samples()[0].observation)
+    step = first_step(room, **{"localizer.clusterer": "by_heading"})
     signs = [set(step.hypotheses.heading[cluster.members] > 0) for cluster in step.clusters]
     assert sorted(signs, key=list) == [{False}, {True}]
     assert sum(step.clusters.sizes) == len(step.hypotheses)
@@ -89,8 +97,7 @@ def test_a_rater(room, tmp_path):
             assert sum(sizes) == len(hypotheses)
             return sizes / sizes.max()
 
-    experiment = glocal.Experiment.load(room).with_(**{"localizer.rater": "by_size"})
-    step = experiment.localizer().step(experiment.load_samples()[0].observation)
+    step = first_step(room, **{"localizer.rater": "by_size"})
     sizes = step.clusters.sizes
     assert np.array_equal(step.ratings.r, sizes / sizes.max())
     assert np.allclose(step.ratings.r_normalised, sizes / sizes.sum())
@@ -173,13 +180,11 @@ def test_a_matcher_with_the_cores_contact(room, tmp_path):
             return glocal.MatchResult(found, proposals=len(poses), points_tested=len(poses) * len(local.points))
 
     changes = {"localizer.matcher.random_poses.poses": 500, "localizer.threshold_policy": {"fixed": {"omega_max": 0.2}}}
-    experiment = glocal.Experiment.load(room).with_(**changes)
-    step = experiment.localizer().step(experiment.load_samples()[0].observation)
+    step = first_step(room, **changes)
     assert step.proposals == 500
     assert len(step.hypotheses) > 0
     assert step.hypotheses.quality.min() >= 0.2
-    again = experiment.localizer().step(experiment.load_samples()[0].observation)
-    assert np.array_equal(step.hypotheses.map_from_local, again.hypotheses.map_from_local)
+    assert np.array_equal(step.hypotheses.map_from_local, first_step(room, **changes).hypotheses.map_from_local)
 
 
 def test_a_local_mapper_that_trusts_odometry(room, tmp_path):
@@ -317,52 +322,36 @@ def test_parameters_of_every_type_are_keys(room, tmp_path):
 
 
 def test_rules_that_span_parameters_are_faults_with_a_place(room):
-    @glocal.register("ranged")
-    class Ranged(glocal.Clusterer):
-        """Has two parameters that must fit."""
+    @dataclass
+    class Range:
+        low: float = glocal.param(0.0, "Low end.")
+        high: float = glocal.param(1.0, "High end.")
 
-        @dataclass
-        class Params:
-            low: float = glocal.param(0.0, "Low end.")
-            high: float = glocal.param(1.0, "High end.")
+        def __post_init__(self):
+            if self.low >= self.high:
+                raise ValueError("low must be less than high")
 
-            def __post_init__(self):
-                if self.low >= self.high:
-                    raise ValueError("low must be less than high")
-
-        def cluster(self, hypotheses, rng):
-            return np.zeros(len(hypotheses), int)
-
+    glocal.register("ranged")(define(Params=Range))
     with pytest.raises(glocal.ConfigError, match="low must be less than high"):
         glocal.Experiment.load(room).with_(**{"localizer.clusterer.ranged.low": 2})
     glocal.Experiment.load(room).with_(**{"localizer.clusterer.ranged.low": -2})
 
 
 def test_parameters_that_cannot_be_made_are_faults_with_a_place_and_defaults_need_not_be_any(room):
-    @glocal.register("scaled")
-    class Scaled(glocal.Clusterer):
-        """Has a parameter that must be given."""
+    @dataclass
+    class Scale:
+        side: float = glocal.param(doc="Side of a cell.")
 
-        @dataclass
-        class Params:
-            side: float = glocal.param(doc="Side of a cell.")
+        def __post_init__(self):
+            self.per_m = 1.0 / self.side
 
-            def __post_init__(self):
-                self.per_m = 1.0 / self.side
-
-        def cluster(self, hypotheses, rng):
-            return np.zeros(len(hypotheses), int)
-
+    glocal.register("scaled")(define(Params=Scale))
     assert "Side of a cell." in glocal.describe("scaled")
     experiment = glocal.Experiment.load(room)
     with pytest.raises(glocal.ConfigError, match="scaled.side=0: localizer.clusterer.scaled: side: ZeroDivisionError: float division") as caught:
         experiment.with_(**{"localizer.clusterer.scaled.side": 0})
     assert "self.per_m = 1.0 / self.side" in caught.value.faults[0].message
     experiment.with_(**{"localizer.clusterer.scaled.side": 2})
-
-
-def define(**members):
-    return type("Made", (glocal.Clusterer,), {"__doc__": "Does something.", "cluster": lambda s, h, r: h, **members})
 
 
 @dataclass
@@ -452,8 +441,7 @@ def test_a_strategy_that_asks_the_localizer_it_works_for_is_told_so(room):
 def test_a_class_that_is_registered_again_takes_the_place(room):
     for n in (1, 2):
         glocal.register("parts")(define(cluster=lambda self, h, rng, n=n: np.arange(len(h)) % n))
-        experiment = glocal.Experiment.load(room).with_(**{"localizer.clusterer": "parts"})
-        assert len(experiment.localizer().step(experiment.load_samples()[0].observation).clusters) == n
+        assert len(first_step(room, **{"localizer.clusterer": "parts"}).clusters) == n
 
 
 # What goes wrong.
