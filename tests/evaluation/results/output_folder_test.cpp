@@ -95,14 +95,12 @@ TEST(OutputFolder, RefusesWhatIsThere) {
 TEST(OutputFolder, ReplacesOnlyEarlierResults) {
   const TemporaryFolder folder;
   const fs::path parent = (folder / "").parent_path();
-  fs::create_directory(folder / "home");
   folder.write("home/thesis.tex", "years of work");
   EXPECT_EQ(config_error(parent, [&] { OutputFolder(folder / "home", true); }),
             "home: error: output: --force replaces only earlier results, and this folder has no "
             "provenance.json; choose another one with --out");
   EXPECT_EQ(content_of(folder / "home/thesis.tex"), "years of work");
 
-  fs::create_directory(folder / "results");
   folder.write("results/provenance.json", "old");
   folder.write("results/old.txt", "old");
   OutputFolder out(folder / "results", true);
@@ -144,7 +142,6 @@ TEST(OutputFolder, KeepsResultsThatAppearedMeanwhile) {
   {
     OutputFolder out(folder / "results", false);
     out.append("provenance.json", "later");
-    fs::create_directory(folder / "results");
     folder.write("results/provenance.json", "sooner");
     EXPECT_NE(error_of<RunError>([&] { out.commit(); }), "");
   }
@@ -154,7 +151,6 @@ TEST(OutputFolder, KeepsResultsThatAppearedMeanwhile) {
 
 TEST(OutputFolder, EarlierResultsComeBackIfNewOnesCannotTakeTheirPlace) {
   const TemporaryFolder folder;
-  fs::create_directory(folder / "results");
   folder.write("results/provenance.json", "old");
   {
     OutputFolder out(folder / "results", true);
@@ -190,7 +186,6 @@ TEST(OutputFolder, TakesUpWhatWasLeftUnfinished) {
 
 TEST(OutputFolder, WhatWasLeftMayBeRemovedBeforeItIsSynced) {
   const TemporaryFolder folder;
-  fs::create_directory(folder / ".results.unfinished");
   folder.write(".results.unfinished/left.json.part", "half");
   OutputFolder out(folder / "results", false, {}, [](const fs::path&, bool) { return true; });
   fs::remove(folder / ".results.unfinished/left.json.part");
@@ -199,7 +194,6 @@ TEST(OutputFolder, WhatWasLeftMayBeRemovedBeforeItIsSynced) {
 
 TEST(OutputFolder, RemovesWhatIsNotTakenUp) {
   const TemporaryFolder folder;
-  fs::create_directory(folder / ".results.unfinished");
   folder.write(".results.unfinished/a", "1");
   OutputFolder out(folder / "results", false);
   out.commit();
@@ -208,7 +202,6 @@ TEST(OutputFolder, RemovesWhatIsNotTakenUp) {
 
 TEST(OutputFolder, TakesUpResultsThatAreNotComplete) {
   const TemporaryFolder folder;
-  fs::create_directory(folder / "results");
   folder.write("results/a", "1");
   OutputFolder out(folder / "results", false, {}, [](const fs::path&, bool) { return true; });
   EXPECT_FALSE(fs::exists(folder / "results"));
@@ -306,9 +299,7 @@ TEST(OutputFolder, IsCheckedWithoutBeingTouched) {
 
 TEST(OutputFolder, WhatIsUnfinishedGoesOnBeforeWhatWasInterrupted) {
   const TemporaryFolder folder;
-  fs::create_directory(folder / "results");
   folder.write("results/a", "interrupted");
-  fs::create_directory(folder / ".results.unfinished");
   folder.write(".results.unfinished/a", "of another run");
   OutputFolder out(folder / "results", true, {}, [](const fs::path&, bool is_final) { return is_final; });
   EXPECT_EQ(content_of(out.unfinished() / "a"), "interrupted");

@@ -21,7 +21,6 @@ std::string pcd_text(const std::string& points) {
 class Clouds : public testing::Test {
  protected:
   Clouds() {
-    std::filesystem::create_directory(folder_ / "clouds");
     folder_.write("clouds/10.25.pcd", pcd_text("1 2 3 0\n4 5 6 0.125\n"));
     folder_.write("clouds/10.75.pcd", pcd_text("2 2 3 0\n5 5 6 0.125\n"));
     folder_.write("odometry.tum", "10.25 0 0 0.5 0 0 0 1\n10.75 1 0 0.5 0.6 0 0 0.8\n");
