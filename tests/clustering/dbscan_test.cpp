@@ -84,35 +84,29 @@ class AsPublished {
   std::vector<std::optional<std::size_t>> cluster_;
 };
 
+void expect_what_the_paper_writes_down(const std::vector<Hypothesis>& hypotheses, std::uint64_t seed) {
+  for (const double radius : {0.03, 0.1, 0.3}) {
+    for (const double rotation : {2.0, 7.0, 100.0, 180.0}) {
+      for (const int support : {1, 3, 8, 40}) {
+        const Dbscan::Params params{radius, rotation, support};
+        ASSERT_EQ(cluster(hypotheses, params), AsPublished(hypotheses, params).find())
+            << seed << ": " << radius << " m, " << rotation << " deg, " << support;
+      }
+    }
+  }
+}
+
 TEST(Dbscan, IsWhatThePaperWritesDown) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     Rng rng(seed);
-    const std::vector<Hypothesis> hypotheses = test::crowded(400, rng);
-    for (const double radius : {0.03, 0.1, 0.3}) {
-      for (const double rotation : {2.0, 7.0, 100.0, 180.0}) {
-        for (const int support : {1, 3, 8, 40}) {
-          const Dbscan::Params params{radius, rotation, support};
-          ASSERT_EQ(cluster(hypotheses, params), AsPublished(hypotheses, params).find())
-              << seed << ": " << radius << " m, " << rotation << " deg, " << support;
-        }
-      }
-    }
+    expect_what_the_paper_writes_down(test::crowded(400, rng), seed);
   }
 }
 
 TEST(Dbscan, IsWhatThePaperWritesDownInSpace) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     Rng rng(seed);
-    const std::vector<Hypothesis> hypotheses = test::in_space(test::crowded(400, rng), rng);
-    for (const double radius : {0.03, 0.1, 0.3}) {
-      for (const double rotation : {2.0, 7.0, 100.0, 180.0}) {
-        for (const int support : {1, 3, 8, 40}) {
-          const Dbscan::Params params{radius, rotation, support};
-          ASSERT_EQ(cluster(hypotheses, params), AsPublished(hypotheses, params).find())
-              << seed << ": " << radius << " m, " << rotation << " deg, " << support;
-        }
-      }
-    }
+    expect_what_the_paper_writes_down(test::in_space(test::crowded(400, rng), rng), seed);
   }
 }
 
