@@ -33,25 +33,25 @@ TEST(SharedObject, APlaceWithoutAFileAFolderAndTextAreNone) {
   EXPECT_THAT(why_not(folder.path() / "empty.so"), HasSubstr("not a shared object"));
 }
 
+/// Of a good one that has another byte in this place.
+std::string why_not_with(std::streamoff place, char byte) {
+  const TemporaryFolder folder;
+  fs::copy(good, folder / "other.so");
+  std::fstream(folder / "other.so", std::ios::in | std::ios::out | std::ios::binary).seekp(place).put(byte);
+  return why_not(folder / "other.so");
+}
+
 TEST(SharedObject, AProgramIsNone) {
   // A program that may be loaded anywhere has the type of a shared object; an object file has not.
-  const TemporaryFolder folder;
-  fs::copy(good, folder.path() / "other.so");
-  std::fstream file(folder.path() / "other.so", std::ios::in | std::ios::out | std::ios::binary);
-  file.seekp(16);  // e_type
-  file.put(1);     // ET_REL
-  file.close();
-  EXPECT_THAT(why_not(folder.path() / "other.so"), HasSubstr("not a shared object"));
+  constexpr std::streamoff e_type = 16;
+  constexpr char object_file = 1;
+  EXPECT_THAT(why_not_with(e_type, object_file), HasSubstr("not a shared object"));
 }
 
 TEST(SharedObject, OneForAnotherProcessorIsNone) {
-  const TemporaryFolder folder;
-  fs::copy(good, folder.path() / "other.so");
-  std::fstream file(folder.path() / "other.so", std::ios::in | std::ios::out | std::ios::binary);
-  file.seekp(18);  // e_machine
-  file.put(0x28);  // ARM
-  file.close();
-  EXPECT_THAT(why_not(folder.path() / "other.so"), HasSubstr("another kind of processor"));
+  constexpr std::streamoff e_machine = 18;
+  constexpr char arm = 0x28;
+  EXPECT_THAT(why_not_with(e_machine, arm), HasSubstr("another kind of processor"));
 }
 
 TEST(SharedObject, ATruncatedOneIsSeenWhereverItWasCut) {
