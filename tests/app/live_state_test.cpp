@@ -3,9 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <sstream>
-
+#include "evaluation/results/file_io.hpp"
 #include "files.hpp"
 
 namespace glocal::app::live_state_test {
@@ -62,9 +60,7 @@ TEST(LiveState, ThatIsDamagedIsRefused) {
   test::TemporaryFolder folder;
   const auto file = folder.path() / "state.json";
   write_state(file, state_on(map_of({{0.0F, 0.0F, 0.0F}})));
-  std::ostringstream content;
-  content << std::ifstream(file).rdbuf();
-  const std::string whole = content.str();
+  const std::string whole = content_of(file);
   const auto fault = [&](const std::string& damaged) {
     folder.write("state.json", damaged);
     return config_error(folder.path(), [&] { static_cast<void>(read_state(file)); });

@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "evaluation/statistics/statistics.hpp"
 #include "glocal/rng.hpp"
 #include "report/page_text.hpp"
 #include "report/unpacked.hpp"

@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "evaluation/results/map_files.hpp"
 #include "evaluation/results/pcd.hpp"
 #include "evaluation/results/pose_json.hpp"
 #include "files.hpp"

@@ -8,10 +8,10 @@
 
 #include "evaluation/running/experiment_loader.hpp"
 #include "evaluation/running/trials.hpp"
-#include "files.hpp"
 #include "glocal/builtin.hpp"
 #include "glocal/experiment.hpp"
 #include "glocal/localizer.hpp"
+#include "temporary_folder.hpp"
 
 namespace glocal::test::power_cycles_test {
 namespace {

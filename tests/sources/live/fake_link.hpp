@@ -20,8 +20,6 @@ class FakeLink final : public MessageLink {
   }
   void announce(const LiveTopic& topic) { there_.push_back(topic); }
   void end() { ends_ = true; }
-  /// All that is left, unasked for or not, is gone.
-  void lose_all() { messages_.clear(); }
 
   void subscribe(const LiveTopic& topic, Delivery /*delivery*/) override { wanted_.insert(topic.name); }
   std::optional<LiveMessage> next(std::chrono::milliseconds /*longest*/) override {

@@ -10,6 +10,7 @@
 
 #include "glocal/yaml.hpp"
 #include "octree_files.hpp"
+#include "samples.hpp"
 #include "sources/plan.hpp"
 #include "sources/simulation/lidar_simulation.hpp"
 #include "sources/simulation/scene.hpp"
@@ -121,9 +122,7 @@ TEST(PlannedDrive, InAMapFarAwayIsTheSameFarAway) {
     params.kidnappings = {{.after_m = 3.0, .to = {x + 1.75, y + 9.25}, .heading_deg = 90.0}};
     params.boxes = 2;
     Simulation drive(params, SourceSetup{.seed = 4});
-    std::vector<Sample> samples;
-    while (auto sample = drive.next()) samples.push_back(*std::move(sample));
-    return samples;
+    return test::all_of(drive);
   };
   const std::vector<Sample> near = read_all(test::Plan(floor_plan, "[0, 0, 0]"), 0.0, 0.0);
   const std::vector<Sample> far =
