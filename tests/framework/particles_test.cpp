@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "points.hpp"
+
 namespace glocal::particles_test {
 namespace {
 
@@ -45,9 +47,7 @@ TEST(Particles, WhatWeighsNothingIsNowhere) {
 
 /// A scan of three points of which two are in contact, and a local map of four, of which one is.
 TEST(Particles, AHypothesisHasTheContactOfTheScanAndOfTheLocalMapOnceTheRobotHasMovedOn) {
-  Points wall;
-  wall.push_back({5.0F, 1.0F, 0.0F});
-  wall.push_back({5.0F, 2.0F, 0.0F});
+  const Points wall = test::points_of({{5.0F, 1.0F, 0.0F}, {5.0F, 2.0F, 0.0F}});
   const KdTreeContact contact(wall, 0.05);
   // After 1 m ahead the robot stands at (4, 1) and looks along x.
   const Particles particles{{{3.0, 1.0, 0.0}, {3.0, 3.0, 0.0}}, {0.75, 0.25}};

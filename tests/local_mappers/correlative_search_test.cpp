@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "local_mappers/rooms.hpp"
+#include "points.hpp"
 
 namespace glocal::local_mappers::correlative_search_test {
 namespace {
@@ -67,8 +68,7 @@ TEST_F(CorrelativeSearch, NoPoseOfTheBoxIsBetterByBruteForce) {
 }
 
 TEST_F(CorrelativeSearch, ThePenaltyHoldsOdometryWhereHitsSayNothing) {
-  Points far;
-  far.push_back({500, 500, 0});
+  const Points far = test::points_of({{500, 500, 0}});
   const Pose2 predicted{0.02, 0.03, 0.04};
   const SearchResult found = correlative_search(grid, far, predicted, params, 0.01);
   EXPECT_EQ(found.local_from_robot, predicted);

@@ -6,6 +6,7 @@
 
 #include "local_mappers/rooms.hpp"
 #include "local_mappers/scan_normals.hpp"
+#include "points.hpp"
 
 namespace glocal::local_mappers::line_registration_test {
 namespace {
@@ -32,10 +33,8 @@ TEST(LineRegistration, OneMatchByHand) {
   world.map.points.push_back({2.0F, 0.0F, 0.0F});
   world.map.normals.push_back({-1.0F, 0.0F, 0.0F});
   ASSERT_TRUE(world.grid.insert(world.grid.cell(2.0F, 0.0F), 0));
-  Points hits;
-  hits.push_back({2.1F, 0.2F, 0.0F});
-  Points normals;
-  normals.push_back({-1.0F, 0.0F, 0.0F});
+  const Points hits = test::points_of({{2.1F, 0.2F, 0.0F}});
+  const Points normals = test::points_of({{-1.0F, 0.0F, 0.0F}});
   // c = 0.45 * 0.333 = 0.14985; r = -0.1; share = 0.02245502 / (0.02245502 + 0.01).
   const NormalEquations e = linearise(world.grid, world.map, hits, normals, {}, 0.45);
   EXPECT_EQ(e.matches, 1);
@@ -56,8 +55,7 @@ TEST(LineRegistration, MatchesNeedTheGateAndTheNormals) {
   world.map.points.push_back({2.0F, 0.0F, 0.0F});
   world.map.normals.push_back({-1.0F, 0.0F, 0.0F});
   ASSERT_TRUE(world.grid.insert(world.grid.cell(2.0F, 0.0F), 0));
-  Points hits;
-  hits.push_back({2.2F, 0.0F, 0.0F});
+  const Points hits = test::points_of({{2.2F, 0.0F, 0.0F}});
   const auto matches = [&](double normal_angle, double robot_x) {
     Points normals;
     normals.push_back(
@@ -122,8 +120,7 @@ TEST(LineRegistration, ABareCorridorLeavesTheWayAlongItAlone) {
 
 TEST(LineRegistration, WithoutMatchesItStays) {
   const ScanMap world(Scan{});
-  Points hits;
-  hits.push_back({1, 1, 0});
+  const Points hits = test::points_of({{1, 1, 0}});
   const ScanRegistration found = register_scan(world.grid, world.map, hits, hits, {0.1, 0.2, 0.3}, 0.45);
   EXPECT_EQ(found.local_from_robot, (Pose2{0.1, 0.2, 0.3}));
   EXPECT_EQ(found.matches, 0);

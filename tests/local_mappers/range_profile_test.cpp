@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "local_mappers/rooms.hpp"
+#include "points.hpp"
 
 namespace glocal::local_mappers::range_profile_test {
 namespace {
@@ -26,8 +27,7 @@ TEST(RangeProfile, TellsWhatWasMetFromWhatWasSeenThroughAndWhatWasHidden) {
 
 TEST(RangeProfile, LooksAtHitsWhereTheirRobotWas) {
   const RangeProfile profile(circle_around({}, 5.0F));
-  Points hits;
-  hits.push_back({1.0F, 0.0F, 0.0F});
+  const Points hits = test::points_of({{1.0F, 0.0F, 0.0F}});
   // The other robot stood at (0, 4) and looked along y: its hit is at (0, 5).
   EXPECT_EQ(profile.look_at(hits, {0.0, 4.0, radians(90)}).met, 1U);
   EXPECT_EQ(profile.look_at(hits, {0.0, 2.0, radians(90)}).violation, 1U);

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "points.hpp"
+
 namespace glocal::local_mappers::scan_normals_test {
 namespace {
 
@@ -53,9 +55,7 @@ TEST(ScanNormals, DoNotReachAcrossAJump) {
 }
 
 TEST(ScanNormals, AreMissingWhereNothingIsALine) {
-  Points pair;
-  pair.push_back({1, 0, 0});
-  pair.push_back({1, 0.05F, 0});
+  const Points pair = test::points_of({{1, 0, 0}, {1, 0.05F, 0}});
   EXPECT_EQ(scan_normals(pair, {}, {})[0], Point{});
   Points same;
   for (int i = 0; i < 5; ++i) same.push_back({1, 1, 0});

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "glocal/rng.hpp"
+#include "points.hpp"
 
 namespace glocal::local_mappers::surface_map_test {
 namespace {
@@ -87,11 +88,7 @@ TEST(SurfaceMap, HasNoNormalsOnALine) {
 
 TEST(SurfaceMap, ForgetsByObservationsAndByWay) {
   SurfaceMap map({.resolution = 0.1, .normal_radius = 0.5});
-  const auto hit = [](float x) {
-    Points points;
-    points.push_back({x, 0.05F, 0.05F});
-    return points;
-  };
+  const auto hit = [](float x) { return test::points_of({{x, 0.05F, 0.05F}}); };
   map.add(hit(0.05F), {}, 0.0);
   map.add(hit(1.05F), {}, 1.0);
   map.add(hit(2.05F), {}, 2.0);
@@ -112,10 +109,7 @@ TEST(SurfaceMap, ForgetsByObservationsAndByWay) {
 
 TEST(SurfaceMap, LeavesOutWhatIsTooFarForSinglePrecision) {
   SurfaceMap map(SurfaceMapParams{});
-  Points hits;
-  hits.push_back({1e6F, 0.0F, 0.0F});
-  hits.push_back({1.0F, 0.0F, -5000.0F});
-  hits.push_back({1.0F, 0.0F, 0.0F});
+  Points hits = test::points_of({{1e6F, 0.0F, 0.0F}, {1.0F, 0.0F, -5000.0F}, {1.0F, 0.0F, 0.0F}});
   map.add(hits, {}, 0.0);
   EXPECT_EQ(map.map().points.size(), 1U);
 }

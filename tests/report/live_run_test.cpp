@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "evaluation/results/records.hpp"
-#include "report/point_sets.hpp"
+#include "points.hpp"
 
 namespace glocal::test::live_run_test {
 namespace {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "report/point_sets.hpp"
+#include "points.hpp"
 
 namespace glocal::test::map_points_test {
 namespace {
@@ -50,9 +50,7 @@ TEST(MapPoints, FarAwayAreToTheMillimetreToo) {
 }
 
 TEST(MapPoints, InSpaceHaveHeights) {
-  Points points;
-  points.push_back({1.0F, 2.0F, 0.5F});
-  points.push_back({1.0F, 2.0F, -0.25F});
+  const Points points = points_of({{1.0F, 2.0F, 0.5F}, {1.0F, 2.0F, -0.25F}});
   EXPECT_EQ(map_points(points).dump(),
             R"({"x":[1000,1000],"y":[2000,2000],"spacing_m":0.75,"z":[-250,500]})");
 }

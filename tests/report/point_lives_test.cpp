@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <random>
 #include <set>
+#include <vector>
 
-#include "report/point_sets.hpp"
+#include "points.hpp"
 
 namespace glocal::test::point_lives_test {
 namespace {
@@ -35,6 +37,19 @@ PointLives lives_of(const std::vector<Points>& sets, std::size_t most) {
   PointLives lives(most);
   for (const Points& set : sets) lives.add(set);
   return lives;
+}
+
+/// Each of 30 places is in each set or not, in any order; some are there twice.
+std::vector<Points> random_sets(std::size_t n) {
+  std::mt19937 random(5);
+  std::vector<Points> sets(n);
+  for (Points& set : sets) {
+    for (int i = 0; i < 20; ++i) {
+      const auto place = static_cast<float>(random() % 30);
+      set.push_back({0.25F * place - 3.0F, 0.001F * place, 0.0F});
+    }
+  }
+  return sets;
 }
 
 /// Each kept step has its own set again, and no life could be joined to the next one of its point.
@@ -99,13 +114,8 @@ TEST(PointLives, LeaveOutAsFewStepsAsItTakes) {
 }
 
 TEST(PointLives, TellPointsApartThatLieAboveEachOther) {
-  const auto at_height = [](float z) {
-    Points points;
-    points.push_back({1.0F, 2.0F, z});
-    return points;
-  };
   PointLives lives(no_limit);
-  for (const float z : {0.0F, 0.5F, 0.5F}) lives.add(at_height(z));
+  for (const float z : {0.0F, 0.5F, 0.5F}) lives.add(points_of({{1.0F, 2.0F, z}}));
   EXPECT_EQ(to_json(lives).dump(),
             R"({"steps":[0,1,2],"x":[1000,1000],"y":[2000,2000],"from":[0,1],"to":[1,3],"z":[0,500]})");
 }

@@ -8,7 +8,7 @@
 #include "evaluation/results/records.hpp"
 #include "evaluation/results/writers.hpp"
 #include "files.hpp"
-#include "report/point_sets.hpp"
+#include "points.hpp"
 #include "report/unpacked.hpp"
 
 namespace glocal::test::report_data_test {

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "report/point_sets.hpp"
+#include "points.hpp"
 
 namespace glocal::test::scan_frames_test {
 namespace {
@@ -32,9 +32,7 @@ TEST(ScanFrames, LeaveOutEverySecondOrMoreWhereThereAreTooManyPoints) {
 
 TEST(ScanFrames, InSpaceHaveHeights) {
   ScanFrames frames(100);
-  Points hits;
-  hits.push_back({1.0F, 2.0F, 0.0F});
-  hits.push_back({3.0F, 4.0F, 0.5F});
+  Points hits = points_of({{1.0F, 2.0F, 0.0F}, {3.0F, 4.0F, 0.5F}});
   frames.add(hits);
   EXPECT_EQ(frames.to_json().dump(),
             R"({"steps":[0],"first":[0,2],"x":[1000,3000],"y":[2000,4000],"z":[0,500]})");

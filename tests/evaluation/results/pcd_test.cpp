@@ -9,6 +9,7 @@
 
 #include "files.hpp"
 #include "glocal/error.hpp"
+#include "points.hpp"
 
 namespace glocal::test::pcd_test {
 namespace {
@@ -16,10 +17,7 @@ namespace {
 using testing::HasSubstr;
 
 Points two_points() {
-  Points points;
-  points.push_back({1.0F, -2.0F, 0.5F});
-  points.push_back({0.0F, 4.0F, -0.0F});
-  return points;
+  return points_of({{1.0F, -2.0F, 0.5F}, {0.0F, 4.0F, -0.0F}});
 }
 
 const std::string header_of_two =

@@ -10,6 +10,7 @@
 
 #include "glocal/rng.hpp"
 #include "instruction_sets.hpp"
+#include "points.hpp"
 
 namespace glocal::clearance_grid_test {
 namespace {
@@ -142,8 +143,7 @@ TEST(ClearanceGrid, InTheMiddleOfAGridThatIsMadeInPiecesAWallIsWhereItIs) {
 TEST(ClearanceGrid, AMapWithoutAGridBlocksNothing) {
   const ClearanceGrid none(OccupancyGrid{});
   EXPECT_FALSE(none.is_blocked({}, {5.0F, 0.0F, 0.0F}, 0.3));
-  Points ends;
-  ends.push_back({5.0F, 0.0F, 0.0F});
+  const Points ends = test::points_of({{5.0F, 0.0F, 0.0F}});
   std::vector<std::uint8_t> blocked;
   none.find_blocked({}, ends, Transform(Pose2{}), 0.3, blocked);
   EXPECT_EQ(blocked, std::vector<std::uint8_t>{0});

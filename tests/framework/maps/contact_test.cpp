@@ -11,6 +11,7 @@
 #include "files.hpp"
 #include "glocal/rng.hpp"
 #include "instruction_sets.hpp"
+#include "points.hpp"
 #include "test_world.hpp"
 
 namespace glocal::contact_test {
@@ -99,8 +100,7 @@ TEST(ContactIndex, AgreesWithBruteForceInSpace) {
 }
 
 TEST(BitsetContact, PlanarMapTakesInHeightsWithinEpsilon) {
-  Points points;
-  points.push_back({1.0F, 1.0F, 0.5F});
+  const Points points = test::points_of({{1.0F, 1.0F, 0.5F}});
   const BitsetContact grid(points, 0.1);
   EXPECT_TRUE(contact(grid, {1.0F, 1.0F, 0.55F}));
   EXPECT_FALSE(contact(grid, {1.0F, 1.0F, 0.65F}));
@@ -240,9 +240,7 @@ TYPED_TEST(Contact, CountingStopsWhereTooFewWereFound) {
 }
 
 TEST(BitsetContact, RefusesToFillTheMemory) {
-  Points points;
-  points.push_back({0.0F, 0.0F, 0.0F});
-  points.push_back({1e6F, 1e6F, 0.0F});
+  const Points points = test::points_of({{0.0F, 0.0F, 0.0F}, {1e6F, 1e6F, 0.0F}});
   EXPECT_THAT(test::error_of([&] { return BitsetContact(points, 0.01); }),
               testing::HasSubstr("larger contact_epsilon"));
 }

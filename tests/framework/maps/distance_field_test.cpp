@@ -8,6 +8,7 @@
 #include "glocal/error.hpp"
 #include "glocal/rng.hpp"
 #include "instruction_sets.hpp"
+#include "points.hpp"
 #include "test_world.hpp"
 
 namespace glocal::distance_field_test {
@@ -78,9 +79,7 @@ TEST(DistanceField, FarAwayAndNotANumberAreBeyondReach) {
 }
 
 TEST(DistanceField, TilesWithoutAnyPointNearTakeNoMemory) {
-  Points points;
-  points.push_back({0.0F, 0.0F, 0.0F});
-  points.push_back({999.98F, 1000.03F, 0.0F});
+  const Points points = test::points_of({{0.0F, 0.0F, 0.0F}, {999.98F, 1000.03F, 0.0F}});
   const DistanceField field(points, 0.05, 0.5);  // 400 million cells
   EXPECT_LT(field.memory_bytes(), 7'000'000U);
   EXPECT_NEAR(field.at(0.2F, 0.1F).distance, std::hypot(0.2, 0.1), 0.01);
@@ -102,9 +101,7 @@ TEST(DistanceField, IsTheSameForAnyNumberOfThreads) {
 }
 
 TEST(DistanceField, RefusesWhatDoesNotFitIntoMemory) {
-  Points points;
-  points.push_back({0.0F, 0.0F, 0.0F});
-  points.push_back({1e5F, 1e5F, 0.0F});
+  const Points points = test::points_of({{0.0F, 0.0F, 0.0F}, {1e5F, 1e5F, 0.0F}});
   EXPECT_THROW(DistanceField(points, 0.05, 0.5), ConfigError);
 }
 
@@ -139,8 +136,7 @@ TEST(RefinedPose, TurnsPointsFarFromTheirOrigin) {
 
 TEST(RefinedPose, StaysWherePointsSayNothing) {
   const DistanceField field(test::small_world_points(), 0.05, 0.5);
-  Points seen;
-  seen.push_back({0.0F, 0.0F, 0.0F});
+  const Points seen = test::points_of({{0.0F, 0.0F, 0.0F}});
   const Pose2 nowhere{100.0, 100.0, 0.3};
   EXPECT_EQ(refined_pose(field, seen, nowhere, {}), nowhere);
   EXPECT_EQ(refined_pose(field, {}, nowhere, {}), nowhere);

@@ -9,6 +9,7 @@
 
 #include "glocal/rng.hpp"
 #include "glocal/voxel_numbers.hpp"
+#include "points.hpp"
 
 namespace glocal::voxel_filter_test {
 namespace {
@@ -35,9 +36,7 @@ TEST(VoxelFilter, OfNothingIsNothing) {
 }
 
 TEST(VoxelFilter, KeepsPointsThatAreFarApart) {
-  Points points;
-  points.push_back({1e7F, -1e7F, 1e7F});
-  points.push_back({-1e7F, 1e7F, -1e7F});
+  const Points points = test::points_of({{1e7F, -1e7F, 1e7F}, {-1e7F, 1e7F, -1e7F}});
   EXPECT_EQ(voxel_downsampled(points, 1e-3), points);
 }
 

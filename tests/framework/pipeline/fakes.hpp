@@ -11,6 +11,7 @@
 
 #include "glocal/catalog.hpp"
 #include "glocal/localizer.hpp"
+#include "points.hpp"
 
 namespace glocal::test {
 
@@ -211,9 +212,7 @@ inline LocalizerConfig follow(const std::shared_ptr<Script>& script, bool is_ver
 
 /// A map with one point, at the origin, and no grid.
 inline std::shared_ptr<const GlobalMap> map_of_one_point() {
-  MapData data;
-  data.points.push_back({0.0F, 0.0F, 0.0F});
-  return std::make_shared<const GlobalMap>(std::move(data));
+  return map_of(points_of({{0.0F, 0.0F, 0.0F}}));
 }
 
 }  // namespace glocal::test

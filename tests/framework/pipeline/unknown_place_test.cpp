@@ -6,6 +6,8 @@
 
 #include <numbers>
 
+#include "points.hpp"
+
 namespace glocal::test::unknown_place_test {
 namespace {
 
@@ -29,16 +31,10 @@ std::vector<Point> hits(int on, int off) {
   return all;
 }
 
-Points points(const std::vector<Point>& of) {
-  Points all;
-  for (const Point& point : of) all.push_back(point);
-  return all;
-}
-
 /// Nothing has moved since the local map was begun.
 std::optional<double> update(UnknownPlaceMonitor& monitor, const std::vector<Point>& scan,
                              const std::vector<Hypothesis>& hypotheses) {
-  return monitor.update({}, points(scan), hypotheses);
+  return monitor.update({}, points_of(scan), hypotheses);
 }
 
 /// After these scans.
@@ -71,12 +67,12 @@ TEST(UnknownPlace, WhatTheLocalMapHadBeforeCountsInEachScan) {
   // A robot that stands still adds nothing to its local map but who walks by.
   UnknownPlaceMonitor monitor({}, four_points(), 0.1);
   LocalMap local;
-  local.points = points(hits(3, 0));
+  local.points = points_of(hits(3, 0));
   local.ends = {3};
-  EXPECT_EQ(monitor.update(local, points(hits(3, 0)), {{pose, {}, 0.9}}), 1.0);
+  EXPECT_EQ(monitor.update(local, points_of(hits(3, 0)), {{pose, {}, 0.9}}), 1.0);
   local.points.push_back({1.0F, 0.0F, 0.0F});
   local.ends = {3, 4};
-  EXPECT_DOUBLE_EQ(monitor.update(local, points(hits(3, 1)), {{pose, {}, 0.9}}).value(), 0.875);
+  EXPECT_DOUBLE_EQ(monitor.update(local, points_of(hits(3, 1)), {{pose, {}, 0.9}}).value(), 0.875);
 }
 
 TEST(UnknownPlace, WhatIsNearIsNotMostOfWhatIsSeen) {
@@ -92,10 +88,10 @@ TEST(UnknownPlace, EachScanStaysWhereTheRobotWas) {
   LocalMap local;
   // (0, 1) on the map each time: 1 m ahead of where the robot was first, at its side when it has turned
   // there.
-  EXPECT_EQ(monitor.update(local, points({{1.0F, 0.0F, 0.0F}}), {{Pose3{}, {}, 0.9}}), 1.0);
+  EXPECT_EQ(monitor.update(local, points_of({{1.0F, 0.0F, 0.0F}}), {{Pose3{}, {}, 0.9}}), 1.0);
   local.local_from_robot = Pose2{1.0, 1.0, std::numbers::pi / 2.0};
-  EXPECT_EQ(monitor.update(local, points({{-1.0F, 0.0F, 0.0F}}), {{Pose3{}, {}, 0.9}}), 1.0);
-  EXPECT_EQ(monitor.update(local, points({{0.0F, 5.0F, 0.0F}}), {{Pose3{}, {}, 0.9}}), 2.0 / 3.0);
+  EXPECT_EQ(monitor.update(local, points_of({{-1.0F, 0.0F, 0.0F}}), {{Pose3{}, {}, 0.9}}), 1.0);
+  EXPECT_EQ(monitor.update(local, points_of({{0.0F, 5.0F, 0.0F}}), {{Pose3{}, {}, 0.9}}), 2.0 / 3.0);
 }
 
 TEST(UnknownPlace, IsJudgedByTheBestHypothesis) {
@@ -129,9 +125,9 @@ TEST(UnknownPlace, AStepWithoutHypothesesIsJudgedByTheLastBest) {
 TEST(UnknownPlace, WhatIsInTheFrameOfAnEarlierLocalMapMeansNothing) {
   UnknownPlaceMonitor monitor({}, four_points(), 0.1);
   LocalMap local;
-  EXPECT_EQ(monitor.update(local, points(hits(1, 0)), {{pose, {}, 0.9}}), 1.0);
+  EXPECT_EQ(monitor.update(local, points_of(hits(1, 0)), {{pose, {}, 0.9}}), 1.0);
   local.epoch = 1;
-  EXPECT_EQ(monitor.update(local, points(hits(0, 1)), {}), std::nullopt);
+  EXPECT_EQ(monitor.update(local, points_of(hits(0, 1)), {}), std::nullopt);
   EXPECT_EQ(monitor.update(local, {}, {{pose, {}, 0.9}}), 0.0) << "the scan before is forgotten, too";
 }
 

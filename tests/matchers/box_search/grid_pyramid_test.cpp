@@ -8,6 +8,7 @@
 #include "glocal/error.hpp"
 #include "glocal/rng.hpp"
 #include "matchers/box_search/box_pyramid.hpp"
+#include "points.hpp"
 
 namespace glocal::grid_pyramid_test {
 namespace {
@@ -121,8 +122,7 @@ TEST(PyramidOfGrid, BoundsEveryPoseOfANodeAndCountsExactlyAtTheBottom) {
 
 TEST(PyramidOfGrid, WindowsBeginAnywhere) {
   // One point in the middle of a cell: with epsilon of less than a cell, that cell alone is in contact.
-  Points map;
-  map.push_back({1.0F, 1.0F, 0.0F});
+  const Points map = test::points_of({{1.0F, 1.0F, 0.0F}});
   const BoxPyramid pyramid(BoxPyramid::Of::pose_grid, map, 0.1, 0.06, 2);
   TileCounts counts;
   std::pair<int, int> in_contact{-1, -1};
@@ -193,9 +193,7 @@ TEST(PyramidOfGrid, StopsOnlyWhereNoNodeCanReachWhatIsAskedFor) {
 }
 
 TEST(PyramidOfGrid, RefusesAMapThatIsTooLarge) {
-  Points map;
-  map.push_back({0.0F, 0.0F, 0.0F});
-  map.push_back({1e6F, 1e6F, 0.0F});
+  const Points map = test::points_of({{0.0F, 0.0F, 0.0F}, {1e6F, 1e6F, 0.0F}});
   EXPECT_THROW(BoxPyramid(BoxPyramid::Of::pose_grid, map, 0.05, 0.1, 4), ConfigError);
 }
 

@@ -5,6 +5,7 @@
 
 #include "glocal/rng.hpp"
 #include "matchers/box_search/pose_boxes.hpp"
+#include "points.hpp"
 
 namespace glocal::pose_grid_test {
 namespace {
@@ -36,19 +37,15 @@ TEST(PoseGrid, APoseBringsEachPointIntoItsCell) {
 
 TEST(PoseGrid, AStepOfRotationMovesTheFarthestPointByACell) {
   // The middle is (3, 0), the farthest points 5 m from it.
-  Points points;
-  points.push_back({-2.0F, 0.0F, 0.0F});
-  points.push_back({8.0F, 0.0F, 0.0F});
-  points.push_back({3.0F, 1.0F, 0.0F});
-  points.push_back({3.0F, -1.0F, 0.0F});
+  const Points points =
+      test::points_of({{-2.0F, 0.0F, 0.0F}, {8.0F, 0.0F, 0.0F}, {3.0F, 1.0F, 0.0F}, {3.0F, -1.0F, 0.0F}});
   const CellFrame frame{.cell = 0.05};
   const PoseGrid grid(points, frame, 0.001);
   EXPECT_EQ(grid.rotations(0), static_cast<std::size_t>(std::ceil(2.0 * std::numbers::pi / 0.01)));
   EXPECT_NEAR(grid.angle(0, 1), 0.01, 1e-4);
   // Not smaller than asked for, and never larger than 0.1 rad.
   EXPECT_EQ(PoseGrid(points, frame, 0.02).rotations(0), 315U);
-  Points one;
-  one.push_back({100.0F, 7.0F, 0.0F});
+  const Points one = test::points_of({{100.0F, 7.0F, 0.0F}});
   EXPECT_EQ(PoseGrid(one, frame, 0.001).rotations(0), 63U);
 }
 

@@ -7,21 +7,15 @@
 #include <numbers>
 
 #include "glocal/rng.hpp"
+#include "points.hpp"
 
 namespace glocal::search_boxes_test {
 namespace {
 
+using test::random_points;
+
 constexpr double cell = 0.05;
 constexpr double epsilon = 0.1;
-
-Points random_points(Rng& rng, std::size_t n, double width, double height) {
-  Points points;
-  for (std::size_t i = 0; i < n; ++i) {
-    points.push_back(
-        {static_cast<float>(rng.uniform(0.0, width)), static_cast<float>(rng.uniform(0.0, height)), 0.0F});
-  }
-  return points;
-}
 
 /// Points nearer to one of the map than this, each looked at.
 std::size_t brute_count(const Points& map, const Points& points, const Pose2& map_from_local, double near) {

@@ -10,16 +10,11 @@
 #include "bench/plain.hpp"
 #include "glocal/rng.hpp"
 #include "instruction_sets.hpp"
+#include "points.hpp"
 #include "test_world.hpp"
 
 namespace glocal::triangle_test {
 namespace {
-
-Points make_points(const std::vector<std::pair<float, float>>& xy) {
-  Points points;
-  for (const auto& [x, y] : xy) points.push_back({x, y, 0.0F});
-  return points;
-}
 
 void add(TripleBatch& batch, const Triple& triple, std::uint32_t number = 0) {
   batch.add_number(number);
@@ -72,7 +67,7 @@ RandomTriples random_triples(std::uint64_t seed, std::size_t size) {
 
 TEST(FindRelations, AllOrdersOfDrawingGiveTheSame) {
   // Sides 5 (0-1), 4 (1-2), 3 (2-0) of a right triangle; counter-clockwise from its longest side.
-  const Points points = make_points({{0, 0}, {5, 0}, {1.8F, 2.4F}});
+  const Points points = test::points_at({{0, 0}, {5, 0}, {1.8F, 2.4F}});
   Triple triple = {0, 1, 2};
   do {
     // 5 / 0.3 = 16.7, 4 / 0.3 = 13.3, 3 / 0.3 = 10.0
@@ -81,12 +76,12 @@ TEST(FindRelations, AllOrdersOfDrawingGiveTheSame) {
 }
 
 TEST(FindRelations, MirroredTrianglesDiffer) {
-  const Points points = make_points({{0, 0}, {5, 0}, {1.8F, -2.4F}});
+  const Points points = test::points_at({{0, 0}, {5, 0}, {1.8F, -2.4F}});
   EXPECT_EQ(relations(points, {0, 1, 2}, {.cell = 0.3}), (std::vector<Relation>{relation_of(16, 10, 13)}));
 }
 
 TEST(FindRelations, DoNotDependOnThePose) {
-  const Points points = make_points({{0, 0}, {4.05F, 0}, {1, 2.55F}});
+  const Points points = test::points_at({{0, 0}, {4.05F, 0}, {1, 2.55F}});
   const auto expected = relations(points, {0, 1, 2}, {});
   ASSERT_EQ(expected.size(), 1U);
   for (double theta = -3.0; theta < 3.0; theta += 0.5) {
@@ -97,7 +92,7 @@ TEST(FindRelations, DoNotDependOnThePose) {
 TEST(FindRelations, SkipWhatGivesPoorPoses) {
   const TriangleRule rule{.cell = 0.1, .min_side = 0.3, .min_height = 0.1, .max_side = 10.0};
   const auto admitted = [&](const std::vector<std::pair<float, float>>& xy, const Triple& triple) {
-    return !relations(make_points(xy), triple, rule).empty();
+    return !relations(test::points_at(xy), triple, rule).empty();
   };
   EXPECT_FALSE(admitted({{0, 0}, {4, 0}, {0.2F, 0.2F}}, {0, 1, 2})) << "side of 0.28 m";
   EXPECT_FALSE(admitted({{0, 0}, {4, 0}, {2, 0.09F}}, {0, 1, 2})) << "height of 0.09 m";
@@ -105,11 +100,11 @@ TEST(FindRelations, SkipWhatGivesPoorPoses) {
   EXPECT_FALSE(admitted({{0, 0}, {10.1F, 0}, {2, 2}}, {0, 1, 2})) << "side of 10.1 m";
   EXPECT_FALSE(admitted({{0, 0}, {4, 0}, {2, 2}}, {0, 1, 1})) << "a point twice";
   const TriangleRule anything{.min_side = 0.0, .min_height = 0.0};
-  EXPECT_TRUE(relations(make_points({{0, 0}, {4, 0}}), {0, 1, 1}, anything).empty()) << "a point twice";
+  EXPECT_TRUE(relations(test::points_at({{0, 0}, {4, 0}}), {0, 1, 1}, anything).empty()) << "a point twice";
 }
 
 TEST(FindRelations, NeighboursAreOwnAndNearerCells) {
-  const Points points = make_points({{0, 0}, {5, 0}, {1.8F, 2.4F}});
+  const Points points = test::points_at({{0, 0}, {5, 0}, {1.8F, 2.4F}});
   std::vector<Relation> found = relations(points, {0, 1, 2}, {.cell = 0.31}, true);
   // 5 / 0.31 = 16.13, 4 / 0.31 = 12.90, 3 / 0.31 = 9.68
   std::vector<Relation> expected;
@@ -146,7 +141,7 @@ TEST(FindRelations, AgreeWithPlainCodeForEveryInstructionSet) {
 }
 
 TEST(LeastSquaresMotions, FindAKnownMotion) {
-  const Points from = make_points({{1, 1}, {4, 1.5F}, {2, 3}});
+  const Points from = test::points_at({{1, 1}, {4, 1.5F}, {2, 3}});
   const Pose2 truth{-3.0, 0.5, 2.2};
   const Pose2 found = motion(from, {0, 1, 2}, test::moved(from, truth), {1, 2, 0}).pose();
   EXPECT_NEAR(found.x, truth.x, 1e-5);
@@ -155,8 +150,8 @@ TEST(LeastSquaresMotions, FindAKnownMotion) {
 }
 
 TEST(LeastSquaresMotions, NoNearbyMotionFitsBetter) {
-  const Points from = make_points({{1, 1}, {4, 1.5F}, {2, 3}});
-  const Points to = make_points({{-1.1F, 0.9F}, {-1.4F, 4.0F}, {-3.1F, 2.1F}});
+  const Points from = test::points_at({{1, 1}, {4, 1.5F}, {2, 3}});
+  const Points to = test::points_at({{-1.1F, 0.9F}, {-1.4F, 4.0F}, {-3.1F, 2.1F}});
   const auto squares = [&](const Pose2& pose) {
     const Points there = test::moved(from, pose);
     double sum = 0.0;

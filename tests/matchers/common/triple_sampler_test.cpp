@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "instruction_sets.hpp"
+#include "points.hpp"
 #include "test_world.hpp"
 
 namespace glocal::triple_sampler_test {
@@ -111,9 +112,7 @@ TEST(TripleSampler, LocalDrawsStayWithinTheRadiusAndReachEveryNeighbour) {
 }
 
 TEST(TripleSampler, ALonelyPointIsItsOnlyNeighbour) {
-  Points points;
-  points.push_back({0.0F, 0.0F, 0.0F});
-  points.push_back({50.0F, 50.0F, 0.0F});
+  const Points points = test::points_of({{0.0F, 0.0F, 0.0F}, {50.0F, 50.0F, 0.0F}});
   const TripleSampler sampler(points, 1.0);
   const Triple triple = draws(sampler, 1, 0, 1).front();
   EXPECT_EQ(triple[0], triple[1]);

@@ -8,12 +8,14 @@
 
 #include "glocal/error.hpp"
 #include "matchers/same_answer.hpp"
+#include "points.hpp"
 #include "test_world.hpp"
 
 namespace glocal::grid_search::branch_and_bound_test {
 namespace {
 
 using test::local_map_at;
+using test::map_of;
 
 constexpr PoseRefinement on_the_grid{.iterations = 0};
 
@@ -22,12 +24,6 @@ MatchResult match(const BranchAndBound::Params& params, const LocalMap& local, d
   BranchAndBound matcher(params, {std::move(map), threads});
   Rng rng(1);
   return matcher.match({local, {}, omega_max}, rng);
-}
-
-std::shared_ptr<const GlobalMap> map_of(Points points) {
-  MapData data;
-  data.points = std::move(points);
-  return std::make_shared<const GlobalMap>(std::move(data));
 }
 
 LocalMap local_of(Points points) {
@@ -99,8 +95,7 @@ TEST(BranchAndBound, RefinedOnesAreAsGoodAsAllPointsSay) {
 }
 
 TEST(BranchAndBound, OnePointFitsAllAlongTheWalls) {
-  Points one;
-  one.push_back({1.0F, 0.0F, 0.0F});
+  const Points one = test::points_of({{1.0F, 0.0F, 0.0F}});
   const auto found =
       match({.grid = {.max_poses = 10}, .refinement = on_the_grid}, local_of(one), 1.0).hypotheses;
   ASSERT_FALSE(found.empty());
@@ -108,8 +103,7 @@ TEST(BranchAndBound, OnePointFitsAllAlongTheWalls) {
 }
 
 TEST(BranchAndBound, AMapOfOnePointTouchesOnePointOfMany) {
-  Points dot;
-  dot.push_back({3.0F, -2.0F, 0.0F});
+  const Points dot = test::points_of({{3.0F, -2.0F, 0.0F}});
   Points spread;
   for (int i = 0; i < 10; ++i) spread.push_back({static_cast<float>(i), 0.0F, 0.0F});
   const auto found = match({.refinement = on_the_grid}, local_of(spread), 0.0, map_of(dot)).hypotheses;

@@ -7,12 +7,15 @@
 
 #include "matchers/grid_search/branch_and_bound.hpp"
 #include "matchers/same_answer.hpp"
+#include "points.hpp"
 #include "test_world.hpp"
 
 namespace glocal::grid_search::exhaustive_test {
 namespace {
 
 using test::local_map_at;
+using test::map_of;
+using test::random_points;
 
 constexpr PoseRefinement on_the_grid{.iterations = 0};
 
@@ -22,21 +25,6 @@ MatchResult match(const typename Kind::Params& params, const LocalMap& local, do
   Kind matcher(params, {std::move(map), threads});
   Rng rng(1);
   return matcher.match({local, {}, omega_max}, rng);
-}
-
-std::shared_ptr<const GlobalMap> map_of(Points points) {
-  MapData data;
-  data.points = std::move(points);
-  return std::make_shared<const GlobalMap>(std::move(data));
-}
-
-Points random_points(Rng& rng, int n, double width, double height) {
-  Points points;
-  for (int i = 0; i < n; ++i) {
-    points.push_back(
-        {static_cast<float>(rng.uniform(0.0, width)), static_cast<float>(rng.uniform(0.0, height)), 0.0F});
-  }
-  return points;
 }
 
 /// Omega as its definition says.
@@ -95,7 +83,7 @@ class BesideBranchAndBound : public ::testing::TestWithParam<int> {
     Rng rng(static_cast<std::uint64_t>(GetParam()));
     local_ = local_map_at(test::somewhere_in_small_world(GetParam(), rng), 3.0);
     // Things the map does not show: a tenth of the points.
-    const Points clutter = random_points(rng, static_cast<int>(local_.points.size()) / 10, 2.0, 2.0);
+    const Points clutter = random_points(rng, local_.points.size() / 10, 2.0, 2.0);
     for (std::size_t i = 0; i < clutter.size(); ++i) local_.points.push_back(clutter[i]);
     local_.ends = {local_.points.size()};
   }

@@ -17,6 +17,7 @@
 #include "matchers/same_answer.hpp"
 #include "matchers/surfels/hall_map.hpp"
 #include "matchers/surfels/scanned_hall.hpp"
+#include "points.hpp"
 
 namespace glocal::grid_search::upright_branch_and_bound_test {
 namespace {
@@ -215,9 +216,7 @@ TEST(PyramidOfGridInSpace, BoundsEveryPoseOfANodeAndCountsExactlyAtTheBottom) {
 }
 
 TEST(PyramidOfGridInSpace, RefusesAMapThatIsTooLarge) {
-  Points map;
-  map.push_back({0.0F, 0.0F, 0.0F});
-  map.push_back({100.0F, 100.0F, 100.0F});
+  const Points map = test::points_of({{0.0F, 0.0F, 0.0F}, {100.0F, 100.0F, 100.0F}});
   EXPECT_NO_THROW(pyramid_of(map, 0.5, 0.5));
   EXPECT_THROW(pyramid_of(map, 0.05, 0.1), ConfigError);
 }

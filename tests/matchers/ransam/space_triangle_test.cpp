@@ -8,17 +8,12 @@
 #include <vector>
 
 #include "glocal/rng.hpp"
+#include "points.hpp"
 
 namespace glocal::ransam::space_triangle_test {
 namespace {
 
 constexpr TriangleRule rule{.cell = 0.1, .min_side = 0.3, .min_height = 0.2, .max_side = 20.0};
-
-Points points_of(const std::vector<Point>& points) {
-  Points result;
-  for (const Point& p : points) result.push_back(p);
-  return result;
-}
 
 /// Sides of 3.04, 4.04 and 5.04 m; the longest is against point 2.
 Points scalene() {
@@ -28,9 +23,9 @@ Points scalene() {
   constexpr double c = 5.04;
   const double x = (a * a + c * c - b * b) / (2.0 * c);
   const double y = std::sqrt(a * a - x * x);
-  return points_of({{0.0F, 0.0F, 0.0F},
-                    {static_cast<float>(c), 0.0F, 0.0F},
-                    {static_cast<float>(x), static_cast<float>(y), 0.0F}});
+  return test::points_of({{0.0F, 0.0F, 0.0F},
+                          {static_cast<float>(c), 0.0F, 0.0F},
+                          {static_cast<float>(x), static_cast<float>(y), 0.0F}});
 }
 
 std::vector<Relation> relations(const Points& points, const Triple& triple, bool neighbours = false) {
@@ -84,12 +79,12 @@ TEST(SpaceTriangle, NeighboursAreTheNearerCellsOfEachSide) {
 }
 
 TEST(SpaceTriangle, PoorTrianglesHaveNoRelation) {
-  const Points points = points_of({{0.0F, 0.0F, 0.0F},
-                                   {0.0F, 0.0F, 2.0F},
-                                   {0.0F, 0.19F, 1.0F},
-                                   {0.0F, 0.21F, 1.0F},
-                                   {0.0F, 0.2F, 0.1F},
-                                   {0.0F, 15.0F, 15.0F}});
+  const Points points = test::points_of({{0.0F, 0.0F, 0.0F},
+                                         {0.0F, 0.0F, 2.0F},
+                                         {0.0F, 0.19F, 1.0F},
+                                         {0.0F, 0.21F, 1.0F},
+                                         {0.0F, 0.2F, 0.1F},
+                                         {0.0F, 15.0F, 15.0F}});
   EXPECT_EQ(relations(points, {0, 1, 2}).size(), 0U);  // flat
   EXPECT_EQ(relations(points, {0, 1, 3}).size(), 1U);
   EXPECT_EQ(relations(points, {0, 1, 4}).size(), 0U);  // a short side

@@ -5,6 +5,7 @@
 
 #include "evaluation/results/pcd.hpp"
 #include "files.hpp"
+#include "points.hpp"
 
 namespace glocal::clouds::point_cloud_map_test {
 namespace {
@@ -128,8 +129,7 @@ TEST(TypicalSpacing, LooksPastPointsInTheSamePlace) {
     for (int copies = 0; copies < 3; ++copies) points.push_back({0.25F * static_cast<float>(i), 0.0F, 0.0F});
   }
   EXPECT_EQ(typical_spacing(points), 0.25);
-  Points one;
-  one.push_back({1.0F, 2.0F, 3.0F});
+  const Points one = test::points_of({{1.0F, 2.0F, 3.0F}});
   EXPECT_EQ(typical_spacing(one), 0.0);
 }
 
