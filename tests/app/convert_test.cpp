@@ -36,16 +36,15 @@ TEST_F(ConvertCommand, ALogBecomesMcapAndALogAgain) {
   EXPECT_EQ(json["topics"][0]["topic"], "/reference");
   EXPECT_EQ(json["topics"][1]["scan"]["beams"], 3);
   good(convert("drive.mcap", "back.log", "--reference /reference"));
-  EXPECT_THAT(content(file("back.log")), HasSubstr("TRUEPOS 5 6 0 "));
-  EXPECT_THAT(content(file("back.log")),
-              HasSubstr(" 80 0 0 3 1 2 3 0 0.1 0 0 0 0 0 0 0 0 0 0 1.500000 glocal"));
+  EXPECT_THAT(content("back.log"), HasSubstr("TRUEPOS 5 6 0 "));
+  EXPECT_THAT(content("back.log"), HasSubstr(" 80 0 0 3 1 2 3 0 0.1 0 0 0 0 0 0 0 0 0 0 1.500000 glocal"));
 }
 
 TEST_F(ConvertCommand, McapCanBeCopied) {
   good(convert("drive.log", "drive.mcap"));
   const Answer answer = good(convert("drive.mcap", "copy.mcap"));
   EXPECT_EQ(answer.out, "6 messages in " + file("copy.mcap") + "\n");
-  EXPECT_EQ(content(file("copy.mcap")).size(), content(file("drive.mcap")).size());
+  EXPECT_EQ(content("copy.mcap").size(), content("drive.mcap").size());
 }
 
 TEST_F(ConvertCommand, MessagesOfRos1ThatAreNotKnownAreLeftOut) {
@@ -68,23 +67,23 @@ TEST_F(ConvertCommand, MessagesOfRos1ThatAreNotKnownAreLeftOut) {
 }
 
 TEST_F(ConvertCommand, AFolderOfCloudsBecomesMcapAndAFolderAgain) {
-  std::filesystem::create_directory(file("clouds"));
+  std::filesystem::create_directory("clouds");
   for (const char* name : {"clouds/10.250000.pcd", "clouds/10.750000.pcd"}) {
-    std::ofstream(file(name)) << "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\n"
-                                 "HEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 1\nDATA ascii\n1 2 3\n";
+    std::ofstream(name) << "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\n"
+                           "HEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 1\nDATA ascii\n1 2 3\n";
   }
   const std::string odometry =
       "10.250000 0.000000 0.000000 0.500000 0.000000000 0.000000000 0.000000000 1.000000000\n"
       "10.750000 1.000000 0.000000 0.500000 0.600000000 0.000000000 0.000000000 0.800000000\n";
-  std::ofstream(file("clouds/odometry.tum")) << odometry;
+  std::ofstream("clouds/odometry.tum") << odometry;
   good(convert("clouds", "drive.mcap"));
   good(convert("drive.mcap", "back/"));
-  EXPECT_EQ(content(file("back/odometry.tum")), odometry);
-  EXPECT_TRUE(std::filesystem::exists(file("back/10.250000.pcd")));
-  EXPECT_TRUE(std::filesystem::exists(file("back/10.750000.pcd")));
-  EXPECT_FALSE(std::filesystem::exists(file("back/reference.tum")));
+  EXPECT_EQ(content("back/odometry.tum"), odometry);
+  EXPECT_TRUE(std::filesystem::exists("back/10.250000.pcd"));
+  EXPECT_TRUE(std::filesystem::exists("back/10.750000.pcd"));
+  EXPECT_FALSE(std::filesystem::exists("back/reference.tum"));
   good(convert("back", "again.mcap"));
-  EXPECT_EQ(content(file("again.mcap")), content(file("drive.mcap")));
+  EXPECT_EQ(content("again.mcap"), content("drive.mcap"));
   good(convert("drive.mcap", "back/", "--force"));
 
   EXPECT_THAT(refusal(convert("drive.mcap", "a.log")),
@@ -119,7 +118,7 @@ TEST_F(ConvertCommand, WhatCannotBeIsSaidAndLeavesNothing) {
               HasSubstr("it has none at all: leave out --odometry"));
   EXPECT_THAT(refusal(convert("drive.mcap", "a.log", "--odom-frame world")),
               HasSubstr("set --odom-frame and --base-frame to frames of the tree"));
-  std::ofstream(file("bad.log")) << "FLASER 3 1 2 3 0.1 0 0 0 0 0 1.5 host 1.5\nFLASER 3 1\n";
+  std::ofstream("bad.log") << "FLASER 3 1 2 3 0.1 0 0 0 0 0 1.5 host 1.5\nFLASER 3 1\n";
   EXPECT_THAT(refusal(convert("bad.log", "drive.mcap", "--force")),
               HasSubstr("bad.log:2: error: FLASER says 3 readings"));
   EXPECT_EQ(entries(), 5) << "two logs, a recording, and what the commands said";

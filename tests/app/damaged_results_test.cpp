@@ -123,13 +123,13 @@ class DamagedResults : public Room {
 
 TEST_F(DamagedResults, AreRefusedByEveryCommandWithFileAndLine) {
   good(run_room("whole"));
-  fs::copy(file("whole"), file("b"), fs::copy_options::recursive);
-  fs::copy(file("whole"), file("a"), fs::copy_options::recursive);
+  fs::copy("whole", "b", fs::copy_options::recursive);
+  fs::copy("whole", "a", fs::copy_options::recursive);
   expect_all(0, "whole");
   for (const Damage& damage : damages()) {
-    fs::remove_all(file("a"));
-    fs::copy(file("whole"), file("a"), fs::copy_options::recursive);
-    damage.inflict(file("a"));
+    fs::remove_all("a");
+    fs::copy("whole", "a", fs::copy_options::recursive);
+    damage.inflict("a");
     for (const std::string& command : commands()) {
       const Answer answer = run(command);
       // It reads of steps what they took, whatever their other keys are called.
@@ -152,7 +152,7 @@ TEST_F(DamagedResults, OfAnInterruptedRunAreResults) {
     RunObserver observer;
     observer.trial = [&](const TrialEnd&) { ++finished; };
     observer.stop = [&] { return finished == 2; };
-    const RunResult result = run_experiment(file("room.yaml"), {}, catalog, {.out = file(folder)}, observer);
+    const RunResult result = run_experiment("room.yaml", {}, catalog, {.out = folder}, observer);
     EXPECT_FALSE(result.complete);
     ASSERT_EQ(json(std::string(folder) + "/summary.json")["trials"]["count"], 2);
   }
@@ -163,15 +163,15 @@ TEST_F(DamagedResults, AreNotKeptByALaterRun) {
   write_experiment("trials: {every_scan: 9, max_steps: 3}\n",
                    "variants: {list: {one: {}, two: {seed: 2}}}\n");
   good(run_room("all"));
-  cut("summary.json", 0.5)(file("all/one"));
-  without_last_line("steps.jsonl")(file("all/two"));
+  cut("summary.json", 0.5)("all/one");
+  without_last_line("steps.jsonl")("all/two");
   const std::string refused = refusal(run_room("all"));
   EXPECT_THAT(refused, ContainsRegex("all/one/summary.json:[0-9]+: error: is not as glocal run leaves it"));
   EXPECT_THAT(refused, ContainsRegex("all/two/steps.jsonl:[0-9]+: error: ends here with"));
   EXPECT_THAT(refused, HasSubstr("2 errors"));
   good(run_room("all", "--quiet --force"));
-  good(run("summarize " + file("all")));
-  cut("provenance.json", 0.5)(file("all/one"));
+  good(run("summarize all"));
+  cut("provenance.json", 0.5)("all/one");
   EXPECT_THAT(refusal(run_room("all")), HasSubstr("its provenance.json is damaged"));
 }
 

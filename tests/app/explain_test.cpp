@@ -34,29 +34,29 @@ std::size_t first_right_cluster(const json& step) {
 
 class ExplainCommand : public CommandLine {
  protected:
-  [[nodiscard]] std::string folder() const { return folder_.path() / "results"; }
-
   /// One trial of six steps in the simulated lab.
   void run_lab(const std::string& options = "") const {
-    good(run("run " + std::string(GLOCAL_SOURCE_DIR) + "/configs/experiments/paper_lab.yaml --quiet --out " +
-             folder() + " --set 'trials={starts_m: [0], max_steps: 6}' " + options));
+    good(run("run " GLOCAL_SOURCE_DIR
+             "/configs/experiments/paper_lab.yaml --quiet --out results --set 'trials={starts_m: [0], "
+             "max_steps: 6}' " +
+             options));
   }
 
   void run_lab_again(const std::string& options) const {
-    std::filesystem::remove_all(folder());
+    std::filesystem::remove_all("results");
     run_lab(options);
   }
 
   /// What the run itself has noted of a step.
   [[nodiscard]] json recorded(int step) const {
-    std::istringstream lines(content(folder() + "/steps.jsonl"));
+    std::istringstream lines(content("results/steps.jsonl"));
     std::string line;
     for (int i = 0; i <= step; ++i) std::getline(lines, line);
     return json::parse(line);
   }
 
   [[nodiscard]] std::string explained(int step) const {
-    return good(run("explain " + folder() + " --trial 0 --step " + std::to_string(step))).out;
+    return good(run("explain results --trial 0 --step " + std::to_string(step))).out;
   }
 
   [[nodiscard]] std::string lost(int step) const {
@@ -67,10 +67,10 @@ class ExplainCommand : public CommandLine {
 
 TEST_F(ExplainCommand, MakesTheStepAgain) {
   run_lab();
-  const std::string trial = content(folder() + "/trials.jsonl");
+  const std::string trial = content("results/trials.jsonl");
   const std::size_t steps_at = trial.find("\"steps\":") + 8;
   const int last = std::stoi(trial.substr(steps_at)) - 1;
-  const Answer answer = run("explain " + folder() + " --trial 0 --step " + std::to_string(last));
+  const Answer answer = run("explain results --trial 0 --step " + std::to_string(last));
   const std::size_t why_at = trial.find("\"why\":\"") + 7;
   EXPECT_THAT(answer.out, HasSubstr("localized: " + trial.substr(why_at, trial.find('"', why_at) - why_at)));
   EXPECT_THAT(lost(last), HasSubstr("nowhere: declared, and right"));
@@ -78,18 +78,18 @@ TEST_F(ExplainCommand, MakesTheStepAgain) {
 
 TEST_F(ExplainCommand, RefusesResultsThatTheStepsMadeAgainDoNotHave) {
   run_lab();
-  std::string steps = content(folder() + "/steps.jsonl");
+  std::string steps = content("results/steps.jsonl");
   const std::size_t omega = steps.find("\"omega_best\":") + 13;
   steps.replace(omega, steps.find(',', omega) - omega, "0.125");
-  std::ofstream(folder() + "/steps.jsonl") << steps;
-  EXPECT_THAT(refusal(run("explain " + folder() + " --trial 0 --step 0")),
+  std::ofstream("results/steps.jsonl") << steps;
+  EXPECT_THAT(refusal(run("explain results --trial 0 --step 0")),
               HasSubstr("another glocal made it: the best Omega of step 0 was 0.125000, and is 0."));
   EXPECT_THAT(explained(1), HasSubstr("step 1, "));
 }
 
 TEST_F(ExplainCommand, OfATrialThatGoesOnItIsTheDeclarationsStep) {
-  good(run("run --method indexed --case paper_lab --quiet --out " + folder()));
-  const std::string results = folder() + "/indexed_paper_lab";
+  good(run("run --method indexed --case paper_lab --quiet --out results"));
+  const std::string results = "results/indexed_paper_lab";
   const json trial = json::parse(content(results + "/trials.jsonl"));
   const std::string steps = content(results + "/steps.jsonl");
   ASSERT_LT(trial["steps"].get<std::ptrdiff_t>(), std::count(steps.begin(), steps.end(), '\n'));
@@ -140,21 +140,20 @@ TEST_F(ExplainCommand, NotOnTheMap) {
 
 // The simulated lab's map with its corner at the origin, and far away.
 TEST_F(ExplainCommand, SaysTheSameOnAMapFarAway) {
-  good(run("map convert " + std::string(GLOCAL_SOURCE_DIR) + "/configs/experiments/paper_lab.yaml -o " +
-           file("map.yaml")));
+  good(run("map convert " GLOCAL_SOURCE_DIR "/configs/experiments/paper_lab.yaml -o map.yaml"));
   const auto explained_with = [&](const std::string& corner, const std::string& region) {
-    std::string map = content(file("map.yaml"));
+    std::string map = content("map.yaml");
     const std::size_t origin = map.find("origin: [");
     map.replace(origin, map.find(']', origin) + 1 - origin, "origin: [" + corner + ", 0]");
-    std::ofstream(file("map.yaml")) << map;
-    std::ofstream(file("lab.yaml")) << "schema: 1\nname: lab\nmap: {ros_map: {path: map.yaml}}\n"
-                                       "observations: {simulation: {map: map.yaml, tour_legs: 2}}\n"
-                                       "trials: {starts_m: [0], max_steps: 4}\n"
-                                       "localizer:\n"
-                                       "  matcher: {ransam: {iterations: 20000}}\n"
-                                       "  verifier: whole_map\n"
-                                    << region;
-    good(run("run " + file("lab.yaml") + " --quiet --force --out " + folder()));
+    std::ofstream("map.yaml") << map;
+    std::ofstream("lab.yaml") << "schema: 1\nname: lab\nmap: {ros_map: {path: map.yaml}}\n"
+                                 "observations: {simulation: {map: map.yaml, tour_legs: 2}}\n"
+                                 "trials: {starts_m: [0], max_steps: 4}\n"
+                                 "localizer:\n"
+                                 "  matcher: {ransam: {iterations: 20000}}\n"
+                                 "  verifier: whole_map\n"
+                              << region;
+    good(run("run lab.yaml --quiet --force --out results"));
     std::string text = explained(3);
     const std::size_t reference = text.find("  reference");
     return text.erase(reference, text.find('\n', reference) - reference);
@@ -171,18 +170,17 @@ TEST_F(ExplainCommand, SaysTheSameOnAMapFarAway) {
 
 TEST_F(ExplainCommand, TakesTheLastStepUnlessOneIsNamed) {
   run_lab();
-  const auto steps = json::parse(content(folder() + "/trials.jsonl"))["steps"].get<int>();
-  const Answer last = good(run("explain " + folder() + " --trial 0"));
+  const auto steps = json::parse(content("results/trials.jsonl"))["steps"].get<int>();
+  const Answer last = good(run("explain results --trial 0"));
   EXPECT_EQ(last.out, explained(steps - 1));
   EXPECT_THAT(last.out, testing::StartsWith(fmt::format("paper_lab, trial 0, step {}, ", steps - 1)));
-  EXPECT_THAT(run("explain " + folder() + " --trial 3").err,
-              HasSubstr("there is no trial 3: the last one is 0"));
+  EXPECT_THAT(run("explain results --trial 3").err, HasSubstr("there is no trial 3: the last one is 0"));
 }
 
 TEST_F(ExplainCommand, NamesARivalThatTheMatcherDoesNotHave) {
-  const std::string symmetry = "run " + std::string(GLOCAL_SOURCE_DIR) +
-                               "/configs/experiments/paper_symmetry.yaml --quiet --force --out " + folder() +
-                               " --set 'trials={starts_m: [0], max_steps: 3}' --set output.maps=none --set "
+  const std::string symmetry = "run " GLOCAL_SOURCE_DIR
+                               "/configs/experiments/paper_symmetry.yaml --quiet --force --out results --set "
+                               "'trials={starts_m: [0], max_steps: 3}' --set output.maps=none --set "
                                "localizer.threshold_policy.fixed.omega_max=0.5 --set "
                                "localizer.matcher.branch_and_bound.max_poses=";
   good(run(symmetry + "1"));
@@ -279,24 +277,22 @@ TEST_F(ExplainCommand, NumbersAreThoseOfTheRun) {
 
 TEST_F(ExplainCommand, TellsNothingOfARunWhoseInputsHaveChanged) {
   simulate_room();
-  good(run("run " + file("room/experiment.yaml") +
-           " --quiet --set 'trials={starts_m: [0], max_steps: 2}' --out " + folder()));
-  good(run("explain " + folder() + " --trial 0 --step 0"));
-  std::ofstream(file("room/drive.log"), std::ios::app) << "# more\n";
-  EXPECT_THAT(refusal(run("explain " + folder() + " --trial 0 --step 0")),
+  good(run("run room/experiment.yaml --quiet --set 'trials={starts_m: [0], max_steps: 2}' --out results"));
+  good(run("explain results --trial 0 --step 0"));
+  std::ofstream("room/drive.log", std::ios::app) << "# more\n";
+  EXPECT_THAT(refusal(run("explain results --trial 0 --step 0")),
               HasSubstr("drive.log' has changed since; run the experiment again"));
 }
 
 TEST_F(ExplainCommand, ReportsFaults) {
-  EXPECT_THAT(run("explain " + folder() + " --trial 0 --step 0").err, HasSubstr("is no folder"));
+  EXPECT_THAT(run("explain results --trial 0 --step 0").err, HasSubstr("is no folder"));
   run_lab();
-  EXPECT_THAT(refusal(run("explain " + folder() + " --trial 1 --step 0")),
+  EXPECT_THAT(refusal(run("explain results --trial 1 --step 0")),
               HasSubstr("there is no trial 1: the last one is 0"));
-  EXPECT_THAT(refusal(run("explain " + folder() + " --trial 0 --step 6")),
-              HasSubstr("trial 0 has no step 6"));
-  const auto steps = json::parse(content(folder() + "/trials.jsonl"))["steps"].get<int>();
+  EXPECT_THAT(refusal(run("explain results --trial 0 --step 6")), HasSubstr("trial 0 has no step 6"));
+  const auto steps = json::parse(content("results/trials.jsonl"))["steps"].get<int>();
   ASSERT_LT(steps, 6);
-  EXPECT_THAT(refusal(run("explain " + folder() + " --trial 0 --step " + std::to_string(steps))),
+  EXPECT_THAT(refusal(run("explain results --trial 0 --step " + std::to_string(steps))),
               HasSubstr(fmt::format("it ended with a declaration in step {}", steps - 1)));
 }
 

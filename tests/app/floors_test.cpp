@@ -38,7 +38,7 @@ TEST_F(Floors, EachAnswerNamesItsMapAndThePoseThere) {
   write_floors("trials: {every_m: 8, max_steps: 30}\n");
   good(run_floors());
   std::size_t right = 0, on_first = 0;
-  for (const Json& trial : json_lines(file("results/indexed/trials.jsonl"))) {
+  for (const Json& trial : json_lines("results/indexed/trials.jsonl")) {
     EXPECT_NE(trial["outcome"], "wrong");
     if (trial["outcome"] != "right") continue;
     ++right;
@@ -61,7 +61,7 @@ TEST_F(Floors, ALiftIsFollowed) {
   change("    drives:\n", "    in_lift: true\n    drives:\n");
   good(run_floors());
   std::set<std::string> declared_on;
-  for (const Json& step : json_lines(file("results/indexed/steps.jsonl"))) {
+  for (const Json& step : json_lines("results/indexed/steps.jsonl")) {
     if (step["verdict"] != "localized") continue;
     declared_on.insert(step["place"]["map"]);
   }
@@ -69,19 +69,17 @@ TEST_F(Floors, ALiftIsFollowed) {
 }
 
 TEST_F(Floors, LocalizeAndLiveTakeMoreMapsThanOne) {
-  for (const char* seed : {"1", "2"}) {
-    good(run(std::string("simulate --site office --side 20 --length 40 --seed ") + seed + " --out " +
-             file(std::string("floor_") + seed)));
+  for (const std::string seed : {"1", "2"}) {
+    good(run("simulate --site office --side 20 --length 40 --seed " + seed + " --out floor_" + seed));
   }
-  const std::string maps = file("floor_1/map.yaml") + " ";
-  const Answer answer = good(run("localize " + maps + file("floor_2/drive.log") + " --also " +
-                                 file("floor_2/map.yaml") + " --out " + file("results")));
+  const Answer answer =
+      good(run("localize floor_1/map.yaml floor_2/drive.log --also floor_2/map.yaml --out results"));
   EXPECT_THAT(answer.out, HasSubstr("one of 2: "));
   EXPECT_THAT(answer.out, HasSubstr("floor_2/map.yaml: x "));
   EXPECT_THAT(answer.err, HasSubstr("reference poses do not say which of the maps they are on"));
-  good(run("convert " + file("floor_2/drive.log") + " --out " + file("drive.mcap")));
-  const Answer live = good(run("live " + maps + "--also " + file("floor_2/map.yaml") + " --recording " +
-                               file("drive.mcap") + " --out " + file("live")));
+  good(run("convert floor_2/drive.log --out drive.mcap"));
+  const Answer live =
+      good(run("live floor_1/map.yaml --also floor_2/map.yaml --recording drive.mcap --out live"));
   EXPECT_THAT(live.out, HasSubstr("localized"));
   EXPECT_THAT(live.out, HasSubstr("floor_2/map.yaml: x "));
 }

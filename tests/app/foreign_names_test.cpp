@@ -66,7 +66,6 @@ TEST_F(ForeignNames, OfRecordingsAreFitForATerminal) {
   write_recording("long.mcap", std::string(1'000'000, 'x'), 1);
   write_recording("many.mcap", "", 500);
   for (const std::string name : {"odd.mcap", "long.mcap", "many.mcap"}) {
-    const std::string recording = file(name);
     folder_.write("run.yaml", fmt::format("schema: 1\nname: r\nmap: {{bag_map: {{path: {0}}}}}\n"
                                           "observations: {{bag: {{path: {0}}}}}\ntrials: {{starts_m: [0]}}\n",
                                           name));
@@ -74,24 +73,19 @@ TEST_F(ForeignNames, OfRecordingsAreFitForATerminal) {
                   fmt::format("schema: 1\nname: r\nmap: {{bag_map: {{path: {0}, topic: /no}}}}\n"
                               "observations: {{bag: {{path: {0}, scans: [/no]}}}}\n",
                               name));
-    for (const std::string& arguments :
-         {"bag info " + recording, "localize " + file("map.yaml") + " " + recording + " --out " + file("a"),
-          fmt::format("localize {0} {0} --out {1}", recording, file("b")),
-          "localize " + file("map.yaml") + " " + recording + " --scans /no --out " + file("c"),
-          "localize " + file("map.yaml") + " " + recording + " --odom-frame no --out " + file("d"),
-          "convert " + recording + " -o " + file(name + ".out.mcap"),
-          "convert " + recording + " -o " + file(name + ".out.log"),
-          "convert " + recording + " -o " + file("clouds_" + name) + "/",
-          "prepare " + recording + " --out " + file("case_" + name), "map info " + file("run.yaml"),
-          "check " + file("run.yaml"), "run " + file("run.yaml") + " --out " + file("run_" + name),
-          "run " + file("unknown.yaml"), "mapping " + file("run.yaml")})
-      expect_fit(arguments);
+    for (const char* command :
+         {"bag info {0}", "localize map.yaml {0} --out a", "localize {0} {0} --out b",
+          "localize map.yaml {0} --scans /no --out c", "localize map.yaml {0} --odom-frame no --out d",
+          "convert {0} -o {0}.out.mcap", "convert {0} -o {0}.out.log", "convert {0} -o clouds_{0}/",
+          "prepare {0} --out case_{0}", "map info run.yaml", "check run.yaml", "run run.yaml --out run_{0}",
+          "run unknown.yaml", "mapping run.yaml"})
+      expect_fit(fmt::format(fmt::runtime(command), name));
   }
-  EXPECT_THAT(run("bag info " + file("odd.mcap")).out, HasSubstr("/scan0\\u001b]0;PWNED\\u0007\\u001b[31m"));
-  const Answer many = run("convert " + file("many.mcap") + " -o " + file("a.log"));
+  EXPECT_THAT(run("bag info odd.mcap").out, HasSubstr("/scan0\\u001b]0;PWNED\\u0007\\u001b[31m"));
+  const Answer many = run("convert many.mcap -o a.log");
   EXPECT_THAT(many.err, HasSubstr("and 481 more like these"));
   // What machines read is whole.
-  const Json info = Json::parse(run("bag info --json " + file("odd.mcap")).out);
+  const Json info = Json::parse(run("bag info --json odd.mcap").out);
   EXPECT_EQ(info["topics"][3]["topic"], "/scan0" + on_terminals);
 }
 
@@ -114,14 +108,11 @@ TEST_F(ForeignNames, OfOtherFilesAreFitForATerminal) {
     folder_.write("poses.tum", name + " 1 2 3 4 5 6 7\n");
     folder_.write("map.yaml", "image: \"" + std::string(name == long_name ? name : "\\e[31m") +
                                   "\"\nresolution: 1\norigin: [0, 0, 0]\n");
-    for (const std::string& arguments :
-         {"check " + file("keys.yaml"), "check " + file("values.yaml"), "check " + file("variants.yaml"),
-          "run " + file("variants.yaml") + " --out " + file("v"), "simulate " + file("world.yaml"),
-          "register " + file("cloud.pcd") + " " + file("cloud.ply"),
-          "register " + file("cloud.ply") + " " + file("cloud.pcd"),
-          "localize " + file("map.yaml") + " " + file("drive.log") + " --out " + file("l"),
-          "convert " + file("drive.log") + " -o " + file("drive.mcap"),
-          "prepare " + file("drive.log") + " --corrected " + file("poses.tum") + " --out " + file("p")})
+    for (const char* arguments :
+         {"check keys.yaml", "check values.yaml", "check variants.yaml", "run variants.yaml --out v",
+          "simulate world.yaml", "register cloud.pcd cloud.ply", "register cloud.ply cloud.pcd",
+          "localize map.yaml drive.log --out l", "convert drive.log -o drive.mcap",
+          "prepare drive.log --corrected poses.tum --out p"})
       expect_fit(arguments);
   }
 }
@@ -133,9 +124,9 @@ TEST_F(ForeignNames, OfResultsAreFitForATerminal) {
                 "schema: 1\nname: e\nmap: {simulation: {world: world.yaml}}\n"
                 "observations: {simulation: {world: world.yaml}}\ntrials: {starts_m: [0], max_steps: 2}\n");
   for (const std::string folder : {"a", "b"}) {
-    good(run("run " + file("e.yaml") + " --quiet --out " + file(folder)));
+    good(run("run e.yaml --quiet --out " + folder));
     for (const char* part : {"summary.json", "trials.jsonl", "steps.jsonl", "provenance.json"}) {
-      std::string text = content(file(folder + "/" + part));
+      std::string text = content(folder + "/" + part);
       for (const auto& [from, to] : {std::pair(R"("name":"e")", R"("name":"\u001b[31m\u009b")"),
                                      std::pair(R"("name": "e")", R"("name": "\u001b[31m\u009b")"),
                                      std::pair(R"("why":")", R"("why":"\u001b[31m)")}) {
@@ -145,10 +136,8 @@ TEST_F(ForeignNames, OfResultsAreFitForATerminal) {
       folder_.write(folder + "/" + part, text);
     }
   }
-  for (const std::string& arguments :
-       {"summarize " + file("a"), "summarize --json " + file("a"), "compare " + file("a") + " " + file("b"),
-        "compare --json " + file("a") + " " + file("b"), "explain " + file("a") + " --step 1",
-        "report " + file("a") + " -o " + file("report.html"), "reliability " + file("a")})
+  for (const char* arguments : {"summarize a", "summarize --json a", "compare a b", "compare --json a b",
+                                "explain a --step 1", "report a -o report.html", "reliability a"})
     expect_fit(arguments);
 }
 

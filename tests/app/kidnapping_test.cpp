@@ -2,9 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
-#include "app/program.hpp"
+#include "app/room.hpp"
 
 namespace glocal::test::kidnapping_test {
 namespace {
@@ -13,20 +12,17 @@ class Kidnapping : public CommandLine {};
 
 TEST_F(Kidnapping, TakesTheVerdictBackAndFindsTheRobotAgain) {
   good(
-      run("run " + std::string(GLOCAL_SOURCE_DIR) + "/configs/experiments/sim_kidnapped.yaml --quiet --out " +
-          (folder_.path() / "results").string() +
+      run("run " GLOCAL_SOURCE_DIR "/configs/experiments/sim_kidnapped.yaml --quiet --out results"
           " --set output.maps=none --set observations.simulation.tour_legs=22"
           " --set 'observations.simulation.kidnappings=[{after_m: 40, to: [25.6, 4.0], heading_deg: -60}]'"));
 
-  std::istringstream steps(content(folder_.path() / "results" / "steps.jsonl"));
-  nlohmann::json before;
+  Json before;
   bool is_carried_away = false;
   bool was_localized = false;
   int wrong = 0;
   int since = 0;
   int found_after = -1;
-  for (std::string line; std::getline(steps, line);) {
-    const auto step = nlohmann::json::parse(line);
+  for (const Json& step : json_lines("results/steps.jsonl")) {
     const auto& reference = step["reference"];
     if (!before.is_null()) {
       const auto& last = before["reference"];

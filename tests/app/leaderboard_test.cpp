@@ -114,37 +114,36 @@ TEST_F(Leaderboard, AnEntryNamesAllProcessorsThatTimesAreOf) {
   Json other = json(second);
   other["cpu"] = "another";
   folder_.write(second, other.dump());
-  good(run("leaderboard add --force " + file("results")));
+  good(run("leaderboard add --force results"));
   EXPECT_EQ(entry()["provenance"]["cpu"], one + ", another");
 }
 
 TEST_F(Leaderboard, TheNameOfAMethodStandsForItsValues) {
   pin();
-  good(run("run --quiet --suite tiny@1 --method few --set localizer.contact_epsilon=0.06 --out " +
-           file("results")));
-  EXPECT_THAT(refusal(run("leaderboard add " + file("results"))),
+  good(run("run --quiet --suite tiny@1 --method few --set localizer.contact_epsilon=0.06 --out results"));
+  EXPECT_THAT(refusal(run("leaderboard add results")),
               HasSubstr("results: error: its localizer has other values than the method few; "));
-  EXPECT_FALSE(std::filesystem::exists(file("leaderboard")));
+  EXPECT_FALSE(std::filesystem::exists("leaderboard"));
   folder_.write("wider.yaml", "localizer: {contact_epsilon: 0.06, matcher: {ransam: {iterations: 2000}}}\n");
-  good(run("run --quiet --suite tiny@1 --method " + file("wider.yaml") + " --out " + file("wider")));
-  EXPECT_THAT(good(run("leaderboard add " + file("wider"))).out, HasSubstr("wider on tiny@1: "));
+  good(run("run --quiet --suite tiny@1 --method wider.yaml --out wider"));
+  EXPECT_THAT(good(run("leaderboard add wider")).out, HasSubstr("wider on tiny@1: "));
 }
 
 TEST_F(Leaderboard, AnEntryIsOfOneLocalizer) {
   pin();
-  const auto run_seed = [&](const char* seed, const char* epsilon) {
+  const auto run_seed = [&](const std::string& seed, const char* epsilon) {
     folder_.write("mine.yaml", fmt::format("localizer: {{contact_epsilon: {}, matcher: {{ransam: "
                                            "{{iterations: 2000}}}}}}\n",
                                            epsilon));
-    good(run("run --quiet --suite tiny@1 --method " + file("mine.yaml") + " --only mine_small_room_seed-" +
-             seed + " --out " + file("results")));
+    good(run("run --quiet --suite tiny@1 --method mine.yaml --only mine_small_room_seed-" + seed +
+             " --out results"));
   };
   run_seed("1", "0.05");
   run_seed("2", "0.06");
-  EXPECT_THAT(refusal(run("leaderboard add " + file("results"))),
+  EXPECT_THAT(refusal(run("leaderboard add results")),
               HasSubstr("results/mine_small_room_seed-2: error: has other values of the localizer than the "
                         "results beside it; run all with the same"));
-  EXPECT_FALSE(std::filesystem::exists(file("leaderboard")));
+  EXPECT_FALSE(std::filesystem::exists("leaderboard"));
 }
 
 TEST_F(Leaderboard, ACheckSaysWhichStartsEndOtherwise) {
@@ -165,8 +164,8 @@ TEST_F(Leaderboard, ACheckSaysWhichStartsEndOtherwise) {
 TEST_F(Leaderboard, ASuiteThatIsAFileIsRenewedByIt) {
   const std::string suite = folder_.write("mine.yaml", suite_).string();
   folder_.write("mine.yaml", suite_ + good(run("leaderboard pin " + suite)).out);
-  good(run("run --quiet --suite " + suite + " --method few --out " + file("results")));
-  good(run("leaderboard add " + file("results") + " --suite " + suite));
+  good(run("run --quiet --suite " + suite + " --method few --out results"));
+  good(run("leaderboard add results --suite " + suite));
   write_method(2000);
   const Answer other = run("leaderboard check " + suite + " --share 1");
   EXPECT_THAT(other.out, HasSubstr("  glocal run --suite " + suite + " --method few "));
@@ -176,12 +175,12 @@ TEST_F(Leaderboard, ASuiteThatIsAFileIsRenewedByIt) {
 TEST_F(Leaderboard, RenewingNeedsForceAndComparesOldAndNew) {
   pin();
   run_and_add();
-  EXPECT_THAT(refusal(run("leaderboard add " + file("results"))),
+  EXPECT_THAT(refusal(run("leaderboard add results")),
               HasSubstr("few.json: error: is there already; --force replaces it"));
   write_method(2000);
   run_and_add(" --force");
   EXPECT_THAT(content(folder_.path() / "out"), HasSubstr("few of tiny@1, start by start:\n  wrong "));
-  const std::vector<Json> lines = json_lines(file("leaderboard/history.jsonl"));
+  const std::vector<Json> lines = json_lines("leaderboard/history.jsonl");
   ASSERT_EQ(lines.size(), 2U);
   EXPECT_EQ(lines[1]["suite"], "tiny@1");
   EXPECT_EQ(lines[1]["starts"], lines[0]["starts"]);
@@ -192,19 +191,18 @@ TEST_F(Leaderboard, AnEntryThatCannotBeReadIsReplaced) {
   run_and_add();
   folder_.write("leaderboard/tiny@1/few.json", "{");
   EXPECT_THAT(refusal(run("leaderboard tiny@1")), HasSubstr("glocal leaderboard add writes it anew"));
-  EXPECT_THAT(good(run("leaderboard add --force " + file("results"))).out, HasSubstr("; it is replaced\n"));
+  EXPECT_THAT(good(run("leaderboard add --force results")).out, HasSubstr("; it is replaced\n"));
   EXPECT_THAT(run("leaderboard tiny@1").out, HasSubstr("\n  few "));
 }
 
 TEST_F(Leaderboard, AllMethodsOfAFolderAreAddedOrNone) {
   pin();
   run_and_add();
-  folder_.write("configs/methods/afew.yaml", content(file("configs/methods/few.yaml")));
-  good(run("run --quiet --suite tiny@1 --method afew --method few --out " + file("both")));
-  EXPECT_THAT(refusal(run("leaderboard add " + file("both"))),
-              HasSubstr("few.json: error: is there already"));
-  EXPECT_FALSE(std::filesystem::exists(file("leaderboard/tiny@1/afew.json")));
-  EXPECT_EQ(json_lines(file("leaderboard/history.jsonl")).size(), 1U);
+  folder_.write("configs/methods/afew.yaml", content("configs/methods/few.yaml"));
+  good(run("run --quiet --suite tiny@1 --method afew --method few --out both"));
+  EXPECT_THAT(refusal(run("leaderboard add both")), HasSubstr("few.json: error: is there already"));
+  EXPECT_FALSE(std::filesystem::exists("leaderboard/tiny@1/afew.json"));
+  EXPECT_EQ(json_lines("leaderboard/history.jsonl").size(), 1U);
 }
 
 TEST_F(Leaderboard, ACheckOfNothingIsAnError) {
@@ -235,16 +233,15 @@ TEST_F(Leaderboard, WritesAPageOfWhatIsStored) {
 TEST_F(Leaderboard, WritesNoPageOfWhatCannotBeRead) {
   pin();
   const auto refused = [&](const std::string& options = "") {
-    const Answer answer = run("leaderboard -o " + file("board.html") + options);
+    const Answer answer = run("leaderboard -o board.html" + options);
     EXPECT_EQ(answer.exit_code, 2) << answer.out;
-    EXPECT_FALSE(fs::exists(file("board.html")));
+    EXPECT_FALSE(fs::exists("board.html"));
     return answer.err;
   };
   EXPECT_THAT(refused(), HasSubstr("leaderboard: error: has no results yet; glocal leaderboard add "));
   run_and_add();
   EXPECT_THAT(refused(" --method other"), HasSubstr("has no results by other yet"));
-  EXPECT_THAT(refusal(run("leaderboard --board " + file("nowhere"))),
-              HasSubstr("nowhere: error: has no results yet"));
+  EXPECT_THAT(refusal(run("leaderboard --board nowhere")), HasSubstr("nowhere: error: has no results yet"));
   EXPECT_THAT(refused(" --markdown"), HasSubstr("--markdown"));
   folder_.write("leaderboard/history.jsonl", "{}\n");
   EXPECT_THAT(refused(), HasSubstr("history.jsonl:1: error: is no line of a leaderboard's history"));
@@ -255,9 +252,9 @@ TEST_F(Leaderboard, WritesNoPageOfWhatCannotBeRead) {
 
 TEST_F(Leaderboard, AShareIsKeptAndCheckedAsOne) {
   pin();
-  good(run("run --quiet --suite tiny@1 --share 0.3 --method few --out " + file("results")));
-  good(run("leaderboard add " + file("results")));
-  const Json entry = Json::parse(content(file("leaderboard/tiny@1/few.json")));
+  good(run("run --quiet --suite tiny@1 --share 0.3 --method few --out results"));
+  good(run("leaderboard add results"));
+  const Json entry = Json::parse(content("leaderboard/tiny@1/few.json"));
   EXPECT_EQ(entry["share"], 0.3);
   EXPECT_EQ(entry["provenance"]["command"], "glocal run --suite tiny@1 --method few --share 0.3");
   EXPECT_THAT(run("leaderboard tiny@1").out, HasSubstr("few (share 0.3)"));
@@ -267,23 +264,23 @@ TEST_F(Leaderboard, AShareIsKeptAndCheckedAsOne) {
 
 TEST_F(Leaderboard, AnInputThatHasChangedIsNamedWithBothHashes) {
   pin();
-  const std::string pinned = content(file("configs/suites/tiny.yaml"));
+  const std::string pinned = content("configs/suites/tiny.yaml");
   std::smatch hash;
   ASSERT_TRUE(std::regex_search(pinned, hash, std::regex("\"../../world.yaml\": ([0-9a-f]{64})")));
-  std::ofstream(file("world.yaml"), std::ios::app) << "# wider\n";
-  const std::string ran = refusal(run("run --quiet --suite tiny@1 --method few --out " + file("results")));
+  std::ofstream("world.yaml", std::ios::app) << "# wider\n";
+  const std::string ran = refusal(run("run --quiet --suite tiny@1 --method few --out results"));
   EXPECT_THAT(ran, HasSubstr("../../world.yaml: error: "));
   EXPECT_THAT(ran, HasSubstr("is not the input of tiny@1: its SHA-256 is "));
   EXPECT_THAT(ran, HasSubstr("and " + hash[1].str() + " is pinned in "));
-  EXPECT_FALSE(fs::exists(file("results")));
+  EXPECT_FALSE(fs::exists("results"));
 }
 
 TEST_F(Leaderboard, StartsThatAreNotAsManyAsPinnedAreRefused) {
   pin();
-  const std::string pinned = content(file("configs/suites/tiny.yaml"));
+  const std::string pinned = content("configs/suites/tiny.yaml");
   folder_.write("configs/suites/tiny.yaml",
                 std::regex_replace(pinned, std::regex("starts: \\d+"), "starts: 4"));
-  EXPECT_THAT(refusal(run("run --quiet --suite tiny@1 --method few --out " + file("results"))),
+  EXPECT_THAT(refusal(run("run --quiet --suite tiny@1 --method few --out results")),
               HasSubstr("starts with seed 1, and 4 are pinned"));
 }
 
@@ -295,8 +292,7 @@ TEST_F(Leaderboard, ImportedPosesAreJudgedLikeOnesOwn) {
       "\xEF\xBB\xBF"
       "case,start,step,x,y,yaw_deg,declared,seed\n";
   for (const int seed : {1, 2}) {
-    for (const Json& trial :
-         json_lines(file(fmt::format("results/few_small_room_seed-{}/trials.jsonl", seed)))) {
+    for (const Json& trial : json_lines(fmt::format("results/few_small_room_seed-{}/trials.jsonl", seed))) {
       if (!trial.contains("pose")) continue;
       const Json& pose = trial.at("pose");
       csv += fmt::format("small_room,{},{},{},{},{},1,{}\n", trial.at("trial").get<int>(),
@@ -306,14 +302,14 @@ TEST_F(Leaderboard, ImportedPosesAreJudgedLikeOnesOwn) {
     }
   }
   good(import(csv));
-  EXPECT_THAT(refusal(run("leaderboard import " + file("poses.csv") + " --suite tiny --method ../evil")),
+  EXPECT_THAT(refusal(run("leaderboard import poses.csv --suite tiny --method ../evil")),
               HasSubstr("'../evil' is no name of a method"));
   EXPECT_FALSE(fs::exists("leaderboard/evil.json"));
   const Json theirs = json("leaderboard/tiny@1/theirs.json").at("results");
   Json ours = entry().at("results");
   for (Json& result : ours) result.erase("ms");
   EXPECT_EQ(theirs, ours);
-  const Json renewal = json_lines(file("leaderboard/history.jsonl")).back();
+  const Json renewal = json_lines("leaderboard/history.jsonl").back();
   EXPECT_EQ(renewal.at("method"), "theirs");
   EXPECT_TRUE(std::regex_match(renewal.at("date").get<std::string>(), std::regex("\\d{4}-\\d\\d-\\d\\d")));
 }
@@ -339,7 +335,7 @@ TEST_F(Leaderboard, WhatIsWrongWithImportedRowsIsSaidOfEach) {
   EXPECT_THAT(import(head + "small_room,1,0\n").err,
               HasSubstr("has 3 values, and the first line names 8 columns"));
   EXPECT_THAT(import(head).err, HasSubstr("has no rows"));
-  EXPECT_FALSE(fs::exists(file("leaderboard")));
+  EXPECT_FALSE(fs::exists("leaderboard"));
 }
 
 TEST_F(Leaderboard, PosesOfAnotherFrameAreToldByHowTheyFit) {
@@ -358,22 +354,22 @@ TEST_F(Leaderboard, PosesOfAnotherFrameAreToldByHowTheyFit) {
 
 TEST_F(Leaderboard, ExportWritesPlainFilesWithoutReferences) {
   pin();
-  good(run("leaderboard export tiny@1 --out " + file("plain")));
-  for (const char* name : {"map.yaml", "map.pgm", "map.pcd", "drive.mcap", "scans/odometry.tum"})
-    EXPECT_TRUE(fs::exists(file("plain/small_room_seed-2/") + name)) << name;
-  EXPECT_FALSE(fs::exists(file("plain/small_room_seed-2/scans/reference.tum")));
-  EXPECT_THAT(run("bag info " + file("plain/small_room_seed-2/drive.mcap")).out,
+  good(run("leaderboard export tiny@1 --out plain"));
+  for (const std::string name : {"map.yaml", "map.pgm", "map.pcd", "drive.mcap", "scans/odometry.tum"})
+    EXPECT_TRUE(fs::exists("plain/small_room_seed-2/" + name)) << name;
+  EXPECT_FALSE(fs::exists("plain/small_room_seed-2/scans/reference.tum"));
+  EXPECT_THAT(run("bag info plain/small_room_seed-2/drive.mcap").out,
               testing::AllOf(HasSubstr("/points"), Not(HasSubstr("/reference"))));
-  const std::string starts = content(file("plain/starts.csv"));
+  const std::string starts = content("plain/starts.csv");
   EXPECT_THAT(starts, HasSubstr("case,seed,folder,start,scan,steps\nsmall_room,1,small_room_seed-1,0,0,5\n"));
-  std::ifstream odometry(file("plain/small_room_seed-2/scans/odometry.tum"));
+  std::ifstream odometry("plain/small_room_seed-2/scans/odometry.tum");
   std::size_t scans = 0;
   for (std::string line; std::getline(odometry, line); ++scans)
-    EXPECT_TRUE(fs::exists(file("plain/small_room_seed-2/scans/" + line.substr(0, line.find(' ')) + ".pcd")));
+    EXPECT_TRUE(fs::exists("plain/small_room_seed-2/scans/" + line.substr(0, line.find(' ')) + ".pcd"));
   EXPECT_GT(scans, 10U);
-  EXPECT_EQ(run("leaderboard export tiny@1 --out " + file("plain")).exit_code, 2);
-  EXPECT_THAT(run("leaderboard export tiny@1 " + file("plain")).err, HasSubstr("-o says what to write"));
-  good(run("leaderboard export tiny@1 --force -o " + file("plain")));
+  EXPECT_EQ(run("leaderboard export tiny@1 --out plain").exit_code, 2);
+  EXPECT_THAT(run("leaderboard export tiny@1 plain").err, HasSubstr("-o says what to write"));
+  good(run("leaderboard export tiny@1 --force -o plain"));
 }
 
 /// A Python that has numpy; empty if there is none.
@@ -388,11 +384,10 @@ TEST_F(Leaderboard, TheExampleInPythonFindsMostStartsOfASmallRoom) {
   const std::string python = python_with_numpy();
   if (python.empty()) GTEST_SKIP() << "there is no Python with numpy";
   pin();
-  good(run("leaderboard export tiny --out " + file("plain")));
+  good(run("leaderboard export tiny --out plain"));
   const std::string script = GLOCAL_SOURCE_DIR "/examples/python/particle_filter.py";
-  ASSERT_EQ(std::system((python + " " + script + " " + file("plain") + " " + file("poses.csv")).c_str()), 0);
-  const Answer imported =
-      good(run("leaderboard import " + file("poses.csv") + " --suite tiny --method particle_filter"));
+  ASSERT_EQ(std::system((python + " " + script + " plain poses.csv").c_str()), 0);
+  const Answer imported = good(run("leaderboard import poses.csv --suite tiny --method particle_filter"));
   std::smatch counts;
   ASSERT_TRUE(std::regex_search(imported.out, counts, std::regex("(\\d+) wrong, (\\d+) right")));
   EXPECT_LE(std::stoi(counts[1]), 2);

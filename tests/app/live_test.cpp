@@ -9,7 +9,6 @@
 #include <filesystem>
 #include <set>
 
-#include "app/result_lines.hpp"
 #include "app/room.hpp"
 #include "sources/bags/message_writer.hpp"
 #include "sources/bags/messages.hpp"
@@ -68,20 +67,20 @@ class Live : public CommandLine {
 };
 
 TEST_F(Live, FindsWhatLocalizeFindsOnTheRecording) {
-  const Answer answer = good(live("drive.mcap", "--out " + file("live")));
+  const Answer answer = good(live("drive.mcap", "--out live"));
   EXPECT_THAT(answer.out, HasSubstr("localized"));
   EXPECT_THAT(answer.out, HasSubstr("1 declarations"));
-  const std::vector<Json> steps = comparable(file("live.steps.jsonl"));
+  const std::vector<Json> steps = comparable("live.steps.jsonl");
   EXPECT_GT(steps.size(), 10U);
   expect_same(steps, steps_of_localize("drive.mcap"));
 }
 
 TEST_F(Live, AVerificationInPiecesGoesOnBetweenSteps) {
   const std::string pieces = " --set localizer.looks_per_step=500";
-  good(live("drive.mcap", "--out " + file("live") + pieces));
-  EXPECT_THAT(content(file("live.yaml")),
+  good(live("drive.mcap", "--out live" + pieces));
+  EXPECT_THAT(content("live.yaml"),
               testing::EndsWith("\n# Not in here, but changed on the command line:" + pieces + "\n"));
-  std::vector<Json> steps = comparable(file("live.steps.jsonl"));
+  std::vector<Json> steps = comparable("live.steps.jsonl");
   const auto waits = [](const Json& step) {
     return step.contains("verification") && step["verification"].contains("goes_on");
   };
@@ -91,65 +90,63 @@ TEST_F(Live, AVerificationInPiecesGoesOnBetweenSteps) {
 
 TEST_F(Live, StepsAreBoundedWhereARobotDrivesOnMeanwhile) {
   const auto experiment = [&](const std::string& options) {
-    const Answer answer = live("drive.mcap", options + " --set localizer.none=1 --out " + file("live"));
+    const Answer answer = live("drive.mcap", options + " --set localizer.none=1 --out live");
     EXPECT_THAT(answer.err, HasSubstr("localizer.none"));
-    return content(file("live.yaml"));
+    return content("live.yaml");
   };
   EXPECT_THAT(experiment(""), HasSubstr("looks_per_step: 0\n")) << "a recording waits";
   folder_.write("own.yaml", "localizer: {verifier: whole_map}\n");
-  EXPECT_THAT(experiment("--real-time --method " + file("own.yaml")), HasSubstr("looks_per_step: 3000000\n"));
+  EXPECT_THAT(experiment("--real-time --method own.yaml"), HasSubstr("looks_per_step: 3000000\n"));
   folder_.write("own.yaml", "localizer: {verifier: whole_map, looks_per_step: 7}\n");
-  EXPECT_THAT(experiment("--real-time --method " + file("own.yaml")), HasSubstr("looks_per_step: 7\n"));
+  EXPECT_THAT(experiment("--real-time --method own.yaml"), HasSubstr("looks_per_step: 7\n"));
 }
 
 TEST_F(Live, GoesOnThoughStepsCannotBeWrittenButDoesNotBeginSo) {
-  std::filesystem::create_symlink("/dev/full", file("live.steps.jsonl"));
-  const Answer full = good(live("drive.mcap", "--out " + file("live")));
+  std::filesystem::create_symlink("/dev/full", "live.steps.jsonl");
+  const Answer full = good(live("drive.mcap", "--out live"));
   EXPECT_THAT(full.err, HasSubstr("live.steps.jsonl: cannot write: No space left on device; steps are not"));
   EXPECT_THAT(full.out, HasSubstr("1 declarations"));
-  std::filesystem::create_directory(file("other.steps.jsonl"));
-  EXPECT_THAT(refusal(live("drive.mcap", "--out " + file("other")), 1),
+  std::filesystem::create_directory("other.steps.jsonl");
+  EXPECT_THAT(refusal(live("drive.mcap", "--out other"), 1),
               HasSubstr("other.steps.jsonl: cannot write: Is a directory"));
   // The steps of another run are kept, though its experiment is gone.
   folder_.write("earlier.steps.jsonl", "{}\n");
-  EXPECT_THAT(refusal(run("live " + file("room/map.yaml") + " --recording " + file("drive.mcap") + " --out " +
-                          file("earlier"))),
+  EXPECT_THAT(refusal(run("live room/map.yaml --recording drive.mcap --out earlier")),
               HasSubstr("earlier.steps.jsonl: error: the file exists"));
-  EXPECT_FALSE(std::filesystem::exists(file("earlier.yaml")));
+  EXPECT_FALSE(std::filesystem::exists("earlier.yaml"));
 }
 
 TEST_F(Live, GoesOnThoughItsPoseCannotBeKeptButDoesNotBeginSo) {
   // A name that is written under a longer one first.
   const std::string name(250, 's');
-  const Answer long_name = good(live("drive.mcap", "--out " + file("live") + " --state " + file(name)));
+  const Answer long_name = good(live("drive.mcap", "--out live --state " + name));
   EXPECT_THAT(long_name.err,
               HasSubstr(name + ": cannot write: File name too long; the pose is not kept any more"));
   EXPECT_THAT(long_name.out, HasSubstr("1 declarations"));
   folder_.write("plain", "");
-  EXPECT_THAT(
-      refusal(live("drive.mcap", "--out " + file("live") + " --state " + file("plain/state.json")), 1),
-      HasSubstr("state.json: cannot write: Not a directory"));
+  EXPECT_THAT(refusal(live("drive.mcap", "--out live --state plain/state.json"), 1),
+              HasSubstr("state.json: cannot write: Not a directory"));
 }
 
 TEST_F(Live, ARecordingWithoutObservationsIsAnError) {
   for (const char* wrong : {"--scans /nope", "--odometry /nope", "--base-frame nope"})
-    EXPECT_THAT(refusal(live("drive.mcap", std::string(wrong) + " --out " + file("live"))),
+    EXPECT_THAT(refusal(live("drive.mcap", std::string(wrong) + " --out live")),
                 HasSubstr("drive.mcap: error: has no scan whose place odometry tells; name"))
         << wrong;
 }
 
 TEST_F(Live, ItsOwnRecordingGivesTheSameAnswers) {
-  good(live("drive.mcap", "--tf --out " + file("live") + " --record " + file("again.mcap")));
-  expect_same(comparable(file("live.steps.jsonl")), steps_of_localize("again.mcap"));
-  const Answer info = run("bag info " + file("again.mcap"));
+  good(live("drive.mcap", "--tf --out live --record again.mcap"));
+  expect_same(comparable("live.steps.jsonl"), steps_of_localize("again.mcap"));
+  const Answer info = run("bag info again.mcap");
   for (const char* topic : {"/initialpose", "/glocal/pose", "/glocal/candidates", "/diagnostics"})
     EXPECT_THAT(info.out, HasSubstr(topic));
-  EXPECT_THAT(refusal(live("drive.mcap", "--out " + file("live") + " --record " + file("again.mcap"))),
+  EXPECT_THAT(refusal(live("drive.mcap", "--out live --record again.mcap")),
               HasSubstr("again.mcap: error: is there already"));
 }
 
 TEST_F(Live, BeginsAnewThoughTheRobotStands) {
-  const carmen::CarmenScan scan = carmen::read_carmen_log(file("room/drive.log")).front();
+  const carmen::CarmenScan scan = carmen::read_carmen_log("room/drive.log").front();
   bags::RobotRecording recording;
   constexpr std::int64_t ms = 1'000'000;
   const auto ask = [&](std::int64_t stamp_ns) {
@@ -161,9 +158,9 @@ TEST_F(Live, BeginsAnewThoughTheRobotStands) {
   ask(251 * ms);
   for (const std::int64_t stamp : {300 * ms, 400 * ms}) add(recording, scan, stamp);
   folder_.write("stands.mcap", recording.bytes());
-  const Answer answer = good(live("stands.mcap", "--out " + file("live")));
+  const Answer answer = good(live("stands.mcap", "--out live"));
   EXPECT_THAT(answer.out, HasSubstr("begins anew"));
-  const std::vector<Json> steps = json_lines(file("live.steps.jsonl"));
+  const std::vector<Json> steps = json_lines("live.steps.jsonl");
   ASSERT_EQ(steps.size(), 2U);
   EXPECT_EQ(steps[0]["trial"], 0);
   EXPECT_EQ(steps[1]["trial"], 1);
@@ -171,17 +168,17 @@ TEST_F(Live, BeginsAnewThoughTheRobotStands) {
 }
 
 TEST_F(Live, MapToOdomGoesOnWhereTheRobotStands) {
-  const auto scans = carmen::read_carmen_log(file("room/drive.log"));
+  const auto scans = carmen::read_carmen_log("room/drive.log");
   constexpr std::int64_t ms = 1'000'000, arrival = 200 * ms;
   bags::RobotRecording recording;
   for (const int i : {0, 1, 2}) add(recording, scans.at(static_cast<std::size_t>(i)), i * 100 * ms);
   for (int i = 1; i <= 10; ++i) add(recording, scans.at(2), arrival + i * 100 * ms);
   folder_.write("stands.mcap", recording.bytes());
-  good(live("stands.mcap", "--tf --out " + file("live") + " --record " + file("told.mcap")));
-  const Json last_step = json_lines(file("live.steps.jsonl")).back();
+  good(live("stands.mcap", "--tf --out live --record told.mcap"));
+  const Json last_step = json_lines("live.steps.jsonl").back();
   EXPECT_EQ(last_step["verdict"], "localized");
   EXPECT_EQ(last_step["stamp"], 0.2);
-  glocal::bags::Recording told(file("told.mcap"));
+  glocal::bags::Recording told("told.mcap");
   told.rewind(std::set<std::string>{"/tf"});
   std::vector<std::int64_t> stamps;
   while (const auto message = told.next()) {
@@ -195,35 +192,33 @@ TEST_F(Live, MapToOdomGoesOnWhereTheRobotStands) {
 }
 
 TEST_F(Live, KnowsAfterAPowerCycleWhereItWas) {
-  const std::string state = " --out " + file("live") + " --state " + file("state.json");
+  const std::string state = " --out live --state state.json";
   const Answer first = good(live("drive.mcap", state));
   EXPECT_THAT(first.out, Not(HasSubstr("was at")));
-  EXPECT_EQ(Json::parse(content(file("state.json")))["stamp"],
-            json_lines(file("live.steps.jsonl")).back()["stamp"])
+  EXPECT_EQ(Json::parse(content("state.json"))["stamp"], json_lines("live.steps.jsonl").back()["stamp"])
       << "where it was at last";
   // The drive begins anew at its start: the robot was carried there while it was off.
   const Answer second = good(live("drive.mcap", state));
   EXPECT_THAT(second.out, HasSubstr("was at"));
-  EXPECT_EQ(json_lines(file("live.steps.jsonl")).back()["verdict"], "localized");
+  EXPECT_EQ(json_lines("live.steps.jsonl").back()["verdict"], "localized");
 
   folder_.write("state.json", "{\"schema\": 1");
   EXPECT_THAT(refusal(live("drive.mcap", state)), HasSubstr("state.json: error: is cut short"));
 }
 
 TEST_F(Live, WithViewersAnswersAreTheSame) {
-  good(live("drive.mcap", "--out " + file("alone") + " --record " + file("alone.mcap")));
-  const Answer shown = good(
-      live("drive.mcap", "--foxglove --port 0 --out " + file("shown") + " --record " + file("shown.mcap")));
+  good(live("drive.mcap", "--out alone --record alone.mcap"));
+  const Answer shown = good(live("drive.mcap", "--foxglove --port 0 --out shown --record shown.mcap"));
   EXPECT_THAT(shown.err, HasSubstr("foxglove: ws://127.0.0.1:"));
-  expect_same(comparable(file("shown.steps.jsonl")), comparable(file("alone.steps.jsonl")));
+  expect_same(comparable("shown.steps.jsonl"), comparable("alone.steps.jsonl"));
   // The robot is not told more than without viewers.
-  EXPECT_EQ(content(file("shown.mcap")), content(file("alone.mcap")));
+  EXPECT_EQ(content("shown.mcap"), content("alone.mcap"));
 }
 
 TEST_F(Live, ViewersNeedAPortOfTheirOwn) {
   httplib::Server other;
   const int port = other.bind_to_any_port("127.0.0.1");
-  const std::string out = " --out " + file("nothing");
+  const std::string out = " --out nothing";
   EXPECT_EQ(refusal(live("drive.mcap", fmt::format("--foxglove --port {}", port) + out)),
             fmt::format("--port={}: error: the port is taken; choose another one, or --port 0 for any "
                         "that is free\n1 error\n",

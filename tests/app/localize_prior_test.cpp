@@ -29,7 +29,7 @@ class LocalizeWithPrior : public Room {
 TEST_F(LocalizeWithPrior, ARegionSettlesWhatSymmetryLeavesOpen) {
   good(localize(""));
   EXPECT_EQ(trial()["outcome"], "undecided");
-  EXPECT_THAT(content(file("found.yaml")), Not(HasSubstr("prior")));
+  EXPECT_THAT(content("found.yaml"), Not(HasSubstr("prior")));
 
   // The drive begins at (2, 3); its image at (10, 3).
   const Answer left = good(localize("--region 2.5 3 3"));
@@ -37,7 +37,7 @@ TEST_F(LocalizeWithPrior, ARegionSettlesWhatSymmetryLeavesOpen) {
   EXPECT_THAT(trial()["why"].get<std::string>(),
               HasSubstr("; only starts within 3 m of x 2.5, y 3 were looked at"));
   EXPECT_THAT(left.out, HasSubstr("prior       only starts within 3 m of x 2.5, y 3\n"));
-  EXPECT_THAT(content(file("found.yaml")), HasSubstr("  prior: {region: {x: 2.5, y: 3, radius: 3}}\n"));
+  EXPECT_THAT(content("found.yaml"), HasSubstr("  prior: {region: {x: 2.5, y: 3, radius: 3}}\n"));
 
   good(localize("--region 10 3 3"));
   EXPECT_EQ(trial()["outcome"], "wrong") << "as the region is";
@@ -46,7 +46,7 @@ TEST_F(LocalizeWithPrior, ARegionSettlesWhatSymmetryLeavesOpen) {
 TEST_F(LocalizeWithPrior, AHeadingDoesSo) {
   const Answer answer = good(localize("--heading -10 90"));
   EXPECT_EQ(trial()["outcome"], "right") << answer.out;
-  EXPECT_THAT(content(file("found.yaml")), HasSubstr("  prior: {heading: {deg: -10, width_deg: 90}}\n"));
+  EXPECT_THAT(content("found.yaml"), HasSubstr("  prior: {heading: {deg: -10, width_deg: 90}}\n"));
 }
 
 TEST_F(LocalizeWithPrior, WhatCannotBeIsRefused) {

@@ -56,11 +56,11 @@ TEST_F(Localize, AMapAndARecordingAreEnough) {
   EXPECT_THAT(answer.out, HasSubstr("step   0    0.00 m"));
   EXPECT_THAT(answer.out, HasSubstr("localized after "));
   EXPECT_THAT(answer.out, HasSubstr("(right: 0.0"));
-  EXPECT_THAT(content(file("answer.html")), HasSubstr("<html"));
+  EXPECT_THAT(content("answer.html"), HasSubstr("<html"));
 }
 
 TEST_F(Localize, ErrorsNameItsOptions) {
-  EXPECT_THAT(refusal(run("convert " + file("room/drive.mcap") + " -o " + file("a.log"))),
+  EXPECT_THAT(refusal(run("convert room/drive.mcap -o a.log")),
               HasSubstr("has several topics with scans; set --scans to those of one sensor"));
   EXPECT_THAT(refusal(localize("room/drive.mcap", "--odom-frame world")),
               HasSubstr("set --odom-frame and --base-frame to frames of the tree"));
@@ -72,8 +72,7 @@ TEST_F(Localize, RefusesMapsThatNoMachineHoldsBeforeAnythingIsMade) {
     bags::RobotRecording recording;
     recording.grid("/map", 0, resolution, 3, {100, 0, 100, 0, 0, 0, 100, 0, 100}, origin);
     folder_.write("map.mcap", recording.bytes());
-    return run("localize " + file("map.mcap") + " " + file("room/drive.mcap") + " --force --out " +
-               file("answer"));
+    return run("localize map.mcap room/drive.mcap --force --out answer");
   };
   for (const float resolution : {1e-6F, 1e-30F, 0.0F, 1e30F})
     EXPECT_THAT(refusal(answer_of(resolution, {})), HasSubstr("must be 0.001 to 100 m"));
@@ -90,9 +89,9 @@ TEST_F(Localize, WithoutReferencesItTellsWhetherItAgreesWithItself) {
 
 TEST_F(Localize, TheExperimentThatItWritesGivesTheSameAnswer) {
   good(localize("room/drive.mcap"));
-  good(run("run " + file("answer.yaml") + " --out " + file("again")));
-  EXPECT_EQ(content(file("again/trials.jsonl")), content(file("answer/trials.jsonl")));
-  EXPECT_THAT(content(file("answer.yaml")), HasSubstr("scans: [\"/scan\"]"));
+  good(run("run answer.yaml --out again"));
+  EXPECT_EQ(content("again/trials.jsonl"), content("answer/trials.jsonl"));
+  EXPECT_THAT(content("answer.yaml"), HasSubstr("scans: [\"/scan\"]"));
 }
 
 TEST_F(Localize, CarmenLogsAreReadAsWell) {
@@ -111,26 +110,26 @@ TEST_F(Localize, AnAnswerThatIsInTheWayStays) {
 TEST_F(Localize, APageThatIsInTheWayIsToldBeforeAnythingIsMade) {
   folder_.write("answer.html", "mine");
   EXPECT_THAT(refusal(localize("room/drive.mcap")), HasSubstr("answer.html: error: the file exists"));
-  EXPECT_FALSE(std::filesystem::exists(file("answer.yaml")));
-  EXPECT_FALSE(std::filesystem::exists(file("answer")));
-  EXPECT_EQ(content(file("answer.html")), "mine");
+  EXPECT_FALSE(std::filesystem::exists("answer.yaml"));
+  EXPECT_FALSE(std::filesystem::exists("answer"));
+  EXPECT_EQ(content("answer.html"), "mine");
 }
 
 TEST_F(Localize, AnInterruptedRunIsGoneOnWithAndItsPageRenewed) {
   good(localize("room/drive.mcap"));
-  auto summary = nlohmann::ordered_json::parse(content(file("answer/summary.json")));
+  auto summary = nlohmann::ordered_json::parse(content("answer/summary.json"));
   summary["complete"] = false;
   folder_.write("answer/summary.json", summary.dump());
   folder_.write("answer.html", "of some trials");
   good(localize("room/drive.mcap"));
-  EXPECT_THAT(content(file("answer.html")), HasSubstr("<html"));
-  std::filesystem::remove_all(file("answer"));
+  EXPECT_THAT(content("answer.html"), HasSubstr("<html"));
+  std::filesystem::remove_all("answer");
   EXPECT_THAT(refusal(localize("room/drive.mcap")), HasSubstr("answer.html: error: the file exists"));
 }
 
 TEST_F(Localize, WhatIsNeitherMapNorLogIsRefused) {
   folder_.write("notes.txt", "hello\n");
-  EXPECT_THAT(refusal(run("localize " + file("notes.txt") + " " + file("room/drive.mcap"))),
+  EXPECT_THAT(refusal(run("localize notes.txt room/drive.mcap")),
               HasSubstr("notes.txt: error: is no map that is known"));
   EXPECT_THAT(refusal(localize("absent.bag")),
               HasSubstr("absent.bag: error: there is no such file or folder"));
@@ -140,32 +139,31 @@ TEST_F(Localize, WhatIsNeitherMapNorLogIsRefused) {
   for (const std::string option : {"--scans", "--odom-frame", "--base-frame"})
     EXPECT_THAT(refusal(localize("clouds", option + " x")),
                 HasSubstr("clouds: error: a folder of clouds has no topics: leave out " + option + "\n"));
-  EXPECT_EQ(content(file("answer.yaml")), "");
+  EXPECT_EQ(content("answer.yaml"), "");
 }
 
 TEST_F(Localize, ARealDriveIsFoundInItsBuildingsPlan) {
   const auto folder = dataset("bags/jarvis");
   if (folder.empty()) GTEST_SKIP() << "set GLOCAL_DATASETS to run this";
-  const Answer answer = good(
-      run("localize " + (folder / "i-108_10mm.yaml").string() + " " +
-          (folder / "jarvis_circular_path_fast.bag").string() +
-          " --every 2 --reference /pose_ground_truth --set observations.bag.reference.x=14.60635" +
-          " --set observations.bag.reference.y=3.34242 --set observations.bag.reference.yaw_deg=-1.53605" +
-          " --set observations.bag.reference.time_shift=0.135 --out " + file("answer")));
+  const Answer answer =
+      good(run("localize " + (folder / "i-108_10mm.yaml").string() + " " +
+               (folder / "jarvis_circular_path_fast.bag").string() +
+               " --every 2 --reference /pose_ground_truth --set observations.bag.reference.x=14.60635 --set "
+               "observations.bag.reference.y=3.34242 --set observations.bag.reference.yaw_deg=-1.53605 --set "
+               "observations.bag.reference.time_shift=0.135 --out answer"));
   EXPECT_THAT(answer.out, HasSubstr("trials              6: 6 right, 0 wrong, 0 undecided"));
   EXPECT_THAT(
-      content(file("answer.yaml")),
+      content("answer.yaml"),
       HasSubstr("# Not in here, but changed on the command line: --set observations.bag.reference.x="));
 }
 
 TEST_F(Localize, WithoutItsPluginAnOctreeIsACloudOfOccupiedVoxels) {
   for (const std::string name : {"tree.bt", "tree.bt.gz"}) {
     folder_.write(name, bt_file({{}, {.x = 32800}, {.y = 32800}}, 0.1));
-    const std::string answer = "localize " + file(name) + " " + file("room/drive.mcap") + " --force --out ";
-    EXPECT_THAT(run(answer + file("answer")).out,
+    EXPECT_THAT(run("localize " + name + " room/drive.mcap --force --out answer").out,
                 HasSubstr("map         an octree, its occupied voxels only: the plugin octomap, which reads "
                           "the free ones, is not loaded\n"));
-    EXPECT_THAT(content(file("answer.yaml")), HasSubstr("point_cloud: {path: "));
+    EXPECT_THAT(content("answer.yaml"), HasSubstr("point_cloud: {path: "));
   }
 }
 

@@ -31,11 +31,9 @@ TEST_F(Memory, LocalizeTakes150MBInAnOfficeOf100MetresAtMost) {
 #ifdef GLOCAL_MORE_MEMORY
   GTEST_SKIP() << "sanitizers and emulators take memory of their own";
 #endif
-  good(run("simulate --site office --side 100 --length 20 --starts 1 --out " + file("office")));
-  EXPECT_LE(peak("localize " + file("office/map.yaml") + " " + file("office/drive.log") + " --out " +
-                 file("answer")),
-            150);
-  EXPECT_THAT(content(file("said")), testing::HasSubstr("localized after "));
+  good(run("simulate --site office --side 100 --length 20 --starts 1 --out office"));
+  EXPECT_LE(peak("localize office/map.yaml office/drive.log --out answer"), 150);
+  EXPECT_THAT(content("said"), testing::HasSubstr("localized after "));
 }
 
 }  // namespace

@@ -24,9 +24,8 @@ class ProductsCommand : public Room {
 };
 
 TEST_F(ProductsCommand, RunLeavesAFolderForEachMethodCaseAndSeed) {
-  const std::string out = file("results");
-  good(run("run --quiet --method " + file("few.yaml") + " --method " + file("many.yaml") + case_option() +
-           "--seeds 1..2 --out " + out));
+  const std::string out = "results";
+  good(run("run --quiet --method few.yaml --method many.yaml" + case_option() + "--seeds 1..2 --out " + out));
   for (const char* name : {"few_small_room_seed-1", "few_small_room_seed-2", "many_small_room_seed-1",
                            "many_small_room_seed-2"}) {
     const Json provenance = Json::parse(content(out + "/" + name + "/provenance.json"));
@@ -38,16 +37,16 @@ TEST_F(ProductsCommand, RunLeavesAFolderForEachMethodCaseAndSeed) {
 }
 
 TEST_F(ProductsCommand, ARunIsCalledComparisonUnlessItIsSaidOtherwise) {
-  const std::string command = "run --quiet --method " + file("few.yaml") + case_option();
-  good(run(command + "--out " + file("a")));
+  const std::string command = "run --quiet --method few.yaml" + case_option();
+  good(run(command + "--out a"));
   EXPECT_EQ(json("a/few_small_room/summary.json")["name"], "comparison");
-  good(run(command + "--set name=mine --out " + file("b")));
+  good(run(command + "--set name=mine --out b"));
   EXPECT_EQ(json("b/few_small_room/summary.json")["name"], "mine");
 }
 
 TEST_F(ProductsCommand, JobsAreGivenTheNamesToo) {
   const Answer answer = good(run("submit --parallel --dry-run --shards 2 --method " + file("few.yaml") +
-                                 case_option() + "--seeds 1..2 --out " + file("shared")));
+                                 case_option() + "--seeds 1..2 --out shared"));
   EXPECT_THAT(answer.out,
               HasSubstr(" run --method " + file("few.yaml") + case_option() + "--seeds 1..2 --shard"));
 }
@@ -56,11 +55,11 @@ TEST_F(ProductsCommand, AFileThatLacksOnlyAMethodIsGivenOne) {
   folder_.write(
       "lacks.yaml",
       "schema: 1\nname: lacks\ncases: [small_room.yaml]\nevaluation: {max_translation_error: 0.4}\n");
-  good(run("check " + file("lacks.yaml") + " --method " + file("few.yaml")));
+  good(run("check lacks.yaml --method few.yaml"));
 }
 
 TEST_F(ProductsCommand, HalfAnExperimentIsRefused) {
-  EXPECT_THAT(refusal(run("run --method indexed --out " + file("results"))),
+  EXPECT_THAT(refusal(run("run --method indexed --out results")),
               HasSubstr("Give an experiment file, or --method and --case"));
 }
 
@@ -72,16 +71,16 @@ TEST_F(ProductsCommand, FilesOfOtherKindsAreNamed) {
     EXPECT_THAT(answer.err, testing::EndsWith("\n1 error\n")) << arguments;
     return answer.err;
   };
-  EXPECT_THAT(fault_of("simulate " + file("plan.yaml") + " --out " + file("drive")),
+  EXPECT_THAT(fault_of("simulate plan.yaml --out drive"),
               HasSubstr("plan.yaml: error: is a map, as a map server reads it, and no experiment"));
-  EXPECT_THAT(fault_of("check " + file("world.yaml")), HasSubstr("is a simulated world, and no experiment"));
+  EXPECT_THAT(fault_of("check world.yaml"), HasSubstr("is a simulated world, and no experiment"));
   EXPECT_THAT(fault_of("run " + file("small_room.yaml")),
               HasSubstr("no experiment: --case " + file("small")));
   EXPECT_THAT(fault_of("run " + file("few.yaml")), HasSubstr("no experiment: --method " + file("few.yaml")));
 }
 
 TEST_F(ProductsCommand, AMethodInPlaceOfAMatcherIsNamed) {
-  const std::string said = refusal(run("check " + file("room.yaml") + " --set localizer.matcher=indexed"));
+  const std::string said = refusal(run("check room.yaml --set localizer.matcher=indexed"));
   EXPECT_THAT(said, HasSubstr("unknown matcher 'indexed', did you mean 'indexed_ransam'?"));
   EXPECT_THAT(said, HasSubstr("; 'indexed' is a method: --method indexed\n"));
 }
@@ -89,8 +88,7 @@ TEST_F(ProductsCommand, AMethodInPlaceOfAMatcherIsNamed) {
 TEST_F(ProductsCommand, TheLikeOfAMatcherInSpaceIsNamedAndThatInThePlane) {
   const auto fault_of = [&](const std::string& localizer) {
     folder_.write("method.yaml", "localizer:\n  {" + localizer + "}\n");
-    std::string said =
-        refusal(run("check --method " + file("method.yaml") + " --case " + file("small_room.yaml")));
+    std::string said = refusal(run("check --method method.yaml --case small_room.yaml"));
     EXPECT_THAT(said, testing::EndsWith("\n1 error\n"));
     return said;
   };
@@ -115,8 +113,7 @@ TEST_F(ProductsCommand, TheSameWarningComesOnce) {
   folder_.write("map.yaml",
                 "image: map.pgm\nresolution: 0.1\norigin: [0, 0, .nan]\nnegate: 0\n"
                 "occupied_thresh: 0.65\nfree_thresh: 0.196\n");
-  const Answer answer = run("check --method " + file("few.yaml") + " --case " + file("one.yaml") +
-                            " --case " + file("two.yaml"));
+  const Answer answer = run("check --method few.yaml --case one.yaml --case two.yaml");
   const std::string warning = "the origin's yaw is NaN, and is taken as 0";
   const std::size_t first = answer.err.find(warning);
   ASSERT_NE(first, std::string::npos) << answer.err;

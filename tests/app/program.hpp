@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -35,8 +36,12 @@ inline std::string refusal(const Answer& answer, int exit_code = 2, const char* 
   return answer.err;
 }
 
+/// Works in a folder of its own: relative paths begin there.
 class CommandLine : public testing::Test {
  protected:
+  CommandLine() { std::filesystem::current_path(folder_.path()); }
+  ~CommandLine() override { std::filesystem::current_path(before_); }
+
   [[nodiscard]] Answer run(const std::string& arguments) const {
     const std::string out = folder_.path() / "out";
     const std::string err = folder_.path() / "err";
@@ -50,6 +55,7 @@ class CommandLine : public testing::Test {
     return text.str();
   }
 
+  /// Its absolute path.
   [[nodiscard]] std::string file(const std::string& name) const { return folder_.path() / name; }
 
   /// world.yaml: a room with a wall in it, and a way through it.
@@ -71,10 +77,13 @@ class CommandLine : public testing::Test {
                   "map:\n  simulation: {world: world.yaml, resolution: 0.05}\n"
                   "observations:\n  simulation: {world: world.yaml, laser: {fov_deg: 270}}\n"
                   "trials: {whole: true}\n");
-    good(run("simulate " + file("room.yaml") + " --out " + file("room")));
+    good(run("simulate room.yaml --out room"));
   }
 
   TemporaryFolder folder_;
+
+ private:
+  const std::filesystem::path before_ = std::filesystem::current_path();
 };
 
 }  // namespace glocal::test

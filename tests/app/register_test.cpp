@@ -37,11 +37,10 @@ class RegisterCommand : public CommandLine {
 };
 
 TEST_F(RegisterCommand, SaysThePoseAndJoinsTheClouds) {
-  const Answer answer =
-      good(run("register " + file("source.pcd") + " " + file("target.pcd") + " -o " + file("both.pcd")));
+  const Answer answer = good(run("register source.pcd target.pcd -o both.pcd"));
   EXPECT_THAT(answer.out, StartsWith("match: score "));
   EXPECT_THAT(answer.out, HasSubstr("quaternion x y z w"));
-  const Points both = read_pcd(file("both.pcd"));
+  const Points both = read_pcd("both.pcd");
   const std::size_t n = scan_of(hall(), here).size();
   EXPECT_EQ(both.size(), 2 * n);
   // The source's points lie in the hall, as the target's do.
@@ -52,20 +51,19 @@ TEST_F(RegisterCommand, SaysThePoseAndJoinsTheClouds) {
     EXPECT_GT(p.x(), -0.1);
     EXPECT_LT(p.x(), 14.1);
   }
-  EXPECT_THAT(
-      refusal(run("register " + file("source.pcd") + " " + file("target.pcd") + " -o " + file("both.pcd"))),
-      HasSubstr("both.pcd: error: the file exists; choose another name, or replace it with --force"));
+  EXPECT_THAT(refusal(run("register source.pcd target.pcd -o both.pcd")),
+              HasSubstr("both.pcd: error: the file exists; choose another name, or replace it with --force"));
 }
 
 TEST_F(RegisterCommand, MakesATableOfPairs) {
-  std::ofstream(file("pairs.csv")) << "source,target,tx,ty,tz,qx,qy,qz,qw,class\nsource.pcd,target.pcd,"
-                                   << truth() << ",easy\nsource.pcd,target.pcd,1,2,3,0,0,0,1,odd\n";
-  const Answer table = good(run("register --pairs " + file("pairs.csv")));
+  std::ofstream("pairs.csv") << "source,target,tx,ty,tz,qx,qy,qz,qw,class\nsource.pcd,target.pcd," << truth()
+                             << ",easy\nsource.pcd,target.pcd,1,2,3,0,0,0,1,odd\n";
+  const Answer table = good(run("register --pairs pairs.csv"));
   EXPECT_THAT(table.out, HasSubstr("easy              1        1       1          0 of 1          0 of 0"));
   EXPECT_THAT(table.out, HasSubstr("odd               1        1       0          0 of 0          1 of 1"));
   EXPECT_THAT(table.out, HasSubstr("all               2        2       1"));
 
-  const Answer lines = run("register --json --pairs " + file("pairs.csv"));
+  const Answer lines = run("register --json --pairs pairs.csv");
   std::istringstream in(lines.out);
   std::string line;
   std::size_t n = 0;
@@ -82,27 +80,27 @@ TEST_F(RegisterCommand, MakesATableOfPairs) {
 }
 
 TEST_F(RegisterCommand, ComparesMethodsByName) {
-  std::ofstream(file("pairs.csv")) << "source,target\nsource.pcd,target.pcd\n";
-  const Answer unnamed = run("register --json --pairs " + file("pairs.csv"));
+  std::ofstream("pairs.csv") << "source,target\nsource.pcd,target.pcd\n";
+  const Answer unnamed = run("register --json --pairs pairs.csv");
   EXPECT_FALSE(nlohmann::json::parse(unnamed.out).contains("method"));
-  const Answer named = good(run("register --json --method surfel_pairs --pairs " + file("pairs.csv")));
+  const Answer named = good(run("register --json --method surfel_pairs --pairs pairs.csv"));
   auto json = nlohmann::json::parse(named.out);
   EXPECT_EQ(json["method"], "surfel_pairs");
   EXPECT_EQ(json["target_from_source"], nlohmann::json::parse(unnamed.out)["target_from_source"]);
-  const Answer table = run("register --method surfel_pairs,surfel_pairs --pairs " + file("pairs.csv"));
+  const Answer table = run("register --method surfel_pairs,surfel_pairs --pairs pairs.csv");
   EXPECT_THAT(table.out, StartsWith("surfel_pairs\nclass "));
   EXPECT_THAT(table.out, HasSubstr("\n\nsurfel_pairs\nclass "));
 
-  const std::string clouds = file("source.pcd") + " " + file("target.pcd");
+  const std::string clouds = "source.pcd target.pcd";
   EXPECT_THAT(run("register --method surfel_pairs " + clouds).out, StartsWith("surfel_pairs\nmatch: "));
   EXPECT_THAT(refusal(run("register --method surfel_pair " + clouds)),
               HasSubstr("there is no cloud registrar 'surfel_pair' (did you mean 'surfel_pairs'?)"));
-  EXPECT_THAT(run("register --method surfel_pairs,surfel_pairs " + clouds + " --out " + file("both.pcd")).err,
+  EXPECT_THAT(run("register --method surfel_pairs,surfel_pairs " + clouds + " --out both.pcd").err,
               HasSubstr("--out takes the pose of one method"));
 }
 
 TEST_F(RegisterCommand, SetsTheParametersOfItsMethods) {
-  const std::string clouds = file("source.pcd") + " " + file("target.pcd");
+  const std::string clouds = "source.pcd target.pcd";
   const std::string plugin = " --plugin " + std::string(GLOCAL_TEST_PLUGINS) + "/every_kind.so ";
   const auto x_of = [&](const std::string& options) {
     const Answer answer = good(run("register --json --method ahead " + clouds + plugin + options));
@@ -138,11 +136,10 @@ TEST_F(RegisterCommand, SetsTheParametersOfItsMethods) {
 }
 
 TEST_F(RegisterCommand, NamesAllFaultsOfAList) {
-  std::ofstream(file("pairs.csv"))
-      << "source,target,tx,ty,tz,qx,qy,qz,qw\nsource.pcd,none.pcd,1,2,3,0,0,0,1\n"
-      << "source.pcd,target.pcd,1,2,3,0,0,0,2\nsource.pcd\n"
-      << "source.pcd,target.pcd,1,b,3,0,0,0,1\n";
-  const Answer answer = run("register --pairs " + file("pairs.csv"));
+  std::ofstream("pairs.csv") << "source,target,tx,ty,tz,qx,qy,qz,qw\nsource.pcd,none.pcd,1,2,3,0,0,0,1\n"
+                             << "source.pcd,target.pcd,1,2,3,0,0,0,2\nsource.pcd\n"
+                             << "source.pcd,target.pcd,1,b,3,0,0,0,1\n";
+  const Answer answer = run("register --pairs pairs.csv");
   EXPECT_EQ(answer.exit_code, 2);
   EXPECT_THAT(answer.err, HasSubstr("pairs.csv:2: error: no such file: "));
   EXPECT_THAT(answer.err,
@@ -153,19 +150,18 @@ TEST_F(RegisterCommand, NamesAllFaultsOfAList) {
 }
 
 TEST_F(RegisterCommand, RefusesWhatItCannotDo) {
-  EXPECT_EQ(run("register " + file("source.pcd")).exit_code, 2);
-  EXPECT_EQ(run("register --pairs " + file("p.csv") + " " + file("source.pcd")).exit_code, 2);
-  std::ofstream(file("p.csv")) << "a,b\n1,2\n";
-  EXPECT_THAT(run("register --pairs " + file("p.csv")).err, HasSubstr("there is no column 'source'"));
-  std::ofstream(file("p.csv")) << "\xEF\xBB\xBFsource,target,x,ty,tz,qx,qy,qz,qw\n";
+  EXPECT_EQ(run("register source.pcd").exit_code, 2);
+  EXPECT_EQ(run("register --pairs p.csv source.pcd").exit_code, 2);
+  std::ofstream("p.csv") << "a,b\n1,2\n";
+  EXPECT_THAT(run("register --pairs p.csv").err, HasSubstr("there is no column 'source'"));
+  std::ofstream("p.csv") << "\xEF\xBB\xBFsource,target,x,ty,tz,qx,qy,qz,qw\n";
   EXPECT_THAT(
-      refusal(run("register --pairs " + file("p.csv"))),
+      refusal(run("register --pairs p.csv")),
       HasSubstr("p.csv:1: error: a pose has the columns tx, ty, tz, qx, qy, qz, qw: give all of them"));
-  std::ofstream(file("bad.pcd")) << "VERSION 0.7\nFIELDS x y z\n";
-  EXPECT_EQ(run("register " + file("bad.pcd") + " " + file("source.pcd")).exit_code, 2);
-  const std::string both = "register " + file("source.pcd") + " " + file("source.pcd");
-  EXPECT_THAT(refusal(run(both + " -o " + file("out.ply"))),
-              HasSubstr("out.ply: error: the name must end in .pcd"));
+  std::ofstream("bad.pcd") << "VERSION 0.7\nFIELDS x y z\n";
+  EXPECT_EQ(run("register bad.pcd source.pcd").exit_code, 2);
+  const std::string both = "register source.pcd source.pcd";
+  EXPECT_THAT(refusal(run(both + " -o out.ply")), HasSubstr("out.ply: error: the name must end in .pcd"));
   EXPECT_EQ(run(both + " --seed -1").exit_code, 2);
   EXPECT_EQ(run(both + " --voxel-size 4e38").exit_code, 2);
 }

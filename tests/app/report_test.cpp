@@ -117,7 +117,7 @@ TEST_F(ReportCommand, HasEveryLineMapAndScanOfTheRun) {
   write_experiment("trials: {every_scan: 6, max_steps: 5}\n", "output: {maps: all}\n");
   good(run_room("a"));
   good(run_room("b", "--quiet --set localizer.verdict_rule=staged_margin"));
-  const Answer answer = good(report(file("a") + " " + file("b")));
+  const Answer answer = good(report("a b"));
   EXPECT_EQ(answer.out, file("report.html") + "\n");
   const Json data = data_of("report.html");
   EXPECT_EQ(data["maps"].size(), 1U);
@@ -152,7 +152,7 @@ TEST_F(ReportCommand, HasEveryLineMapAndScanOfTheRun) {
   Millimetres map;
   for (std::size_t i = 0; i < data["maps"][0]["x"].size(); ++i)
     map.emplace(data["maps"][0]["x"][i], data["maps"][0]["y"][i]);
-  EXPECT_EQ(map, points_of(file("a/maps/global.pcd")));
+  EXPECT_EQ(map, points_of("a/maps/global.pcd"));
   std::size_t steps = 0;
   for (const Json& trial : data["runs"][0]["trials"]) {
     const Json& lives = trial["local_map"];
@@ -180,13 +180,13 @@ TEST_F(ReportCommand, HasEveryLineMapAndScanOfTheRun) {
 TEST_F(ReportCommand, TakesFoldersOfRunsAndNamesWhatever) {
   write_experiment("trials: {every_scan: 12, max_steps: 3}\n");
   const std::string name = "a<b & \xff";
-  good(run("run " + file("room.yaml") + " --quiet --out '" + file("all/" + name) + "'"));
+  good(run("run room.yaml --quiet --out 'all/" + name + "'"));
   good(run_room("all/plain"));
-  good(report(file("all"), "--baseline plain --clusters 2"));
+  good(report("all", "--baseline plain --clusters 2"));
   const Json data = data_of("report.html");
   EXPECT_EQ(data["runs"][0]["name"], "a<b & \xef\xbf\xbd");
   EXPECT_EQ(data["comparison"]["baseline"], "plain");
-  EXPECT_THAT(content(file("report.html")), HasSubstr("<title>a&lt;b &amp; \xef\xbf\xbd, plain</title>"));
+  EXPECT_THAT(content("report.html"), HasSubstr("<title>a&lt;b &amp; \xef\xbf\xbd, plain</title>"));
   for (const Json& trial : data["runs"][1]["trials"])
     EXPECT_LE(trial["columns"]["best"]["x"].size(), 2 * trial["columns"]["step"].size());
 }
@@ -194,14 +194,13 @@ TEST_F(ReportCommand, TakesFoldersOfRunsAndNamesWhatever) {
 TEST_F(ReportCommand, RefusesWhatItCannotShowInOneGo) {
   good(run_room("a"));
   good(run_room("b"));
-  expect_refused(file("missing"), "is no folder");
-  expect_refused(file("a") + " " + file("a/../a"), "is named twice");
-  expect_refused(file("a") + " " + file("b") + " --baseline c",
-                 "names none, or more than one, of the methods");
-  expect_refused(file("a") + " --clusters=-1", "-1");
-  fs::resize_file(file("a/steps.jsonl"), fs::file_size(file("a/steps.jsonl")) - 100);
-  fs::remove(file("b/summary.json"));
-  const std::string both = file("a") + " " + file("b");
+  expect_refused("missing", "is no folder");
+  expect_refused("a a/../a", "is named twice");
+  expect_refused("a b --baseline c", "names none, or more than one, of the methods");
+  expect_refused("a --clusters=-1", "-1");
+  fs::resize_file("a/steps.jsonl", fs::file_size("a/steps.jsonl") - 100);
+  fs::remove("b/summary.json");
+  const std::string both = "a b";
   expect_refused(both, "a/steps.jsonl:");
   expect_refused(both, "b/summary.json: error: cannot be read");
   expect_refused(both, "2 errors");
@@ -209,23 +208,22 @@ TEST_F(ReportCommand, RefusesWhatItCannotShowInOneGo) {
 
 TEST_F(ReportCommand, ReplacesAFileOnlyByForce) {
   good(run_room("a"));
-  std::ofstream(file("report.html")) << "mine";
-  EXPECT_THAT(refusal(report(file("a"))), HasSubstr("--force"));
-  EXPECT_EQ(content(file("report.html")), "mine");
-  good(report(file("a"), "--force"));
-  EXPECT_THAT(content(file("report.html")), Not(HasSubstr("mine")));
+  std::ofstream("report.html") << "mine";
+  EXPECT_THAT(refusal(report("a")), HasSubstr("--force"));
+  EXPECT_EQ(content("report.html"), "mine");
+  good(report("a", "--force"));
+  EXPECT_THAT(content("report.html"), Not(HasSubstr("mine")));
 }
 
 TEST_F(ReportCommand, IsSmallForAWholeDrive) {
   const std::string experiment = GLOCAL_SOURCE_DIR "/configs/experiments/paper_simulation.yaml";
-  good(run("run " + experiment + " --quiet --set localizer.matcher.ransam.iterations=20000 --out " +
-           file("a")));
-  good(report(file("a")));
+  good(run("run " + experiment + " --quiet --set localizer.matcher.ransam.iterations=20000 --out a"));
+  good(report("a"));
   const Json data = data_of("report.html");
   const Json& trial = data["runs"][0]["trials"][0];
   EXPECT_EQ(trial["local_map"]["steps"].size(), 136U);
   EXPECT_EQ(trial["scans"]["steps"].size(), 136U);
-  EXPECT_LT(fs::file_size(file("report.html")), 3'000'000U);
+  EXPECT_LT(fs::file_size("report.html"), 3'000'000U);
 }
 
 }  // namespace

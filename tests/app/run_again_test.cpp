@@ -63,16 +63,16 @@ TEST_F(RunAgain, AKilledRunIsGoneOnWithAndNothingIsRunTwice) {
   for (const std::string jobs : {"1", "2"}) {
     const std::string out = "jobs" + jobs;
     kill_run(out, SIGKILL, [&] { return journal("." + out + ".unfinished").size() >= 3; }, {"--jobs", jobs});
-    EXPECT_FALSE(fs::exists(file(out)));
+    EXPECT_FALSE(fs::exists(out));
     const auto before = journal("." + out + ".unfinished");
     const Answer answer = good(run_room(out, "--jobs " + jobs));
     EXPECT_THAT(
         answer.err,
         HasSubstr("goes on where an earlier run has stopped: " + std::to_string(before.size()) + " of "));
     expect_steps_of(before, out);
-    EXPECT_FALSE(fs::exists(file(out + "/journal")));
-    EXPECT_FALSE(fs::exists(file("." + out + ".unfinished")));
-    EXPECT_FALSE(fs::exists(file("." + out + ".lock")));
+    EXPECT_FALSE(fs::exists(out + "/journal"));
+    EXPECT_FALSE(fs::exists("." + out + ".unfinished"));
+    EXPECT_FALSE(fs::exists("." + out + ".lock"));
   }
   good(run_room("whole"));
   expect_same_results("whole", "jobs1");
@@ -89,8 +89,7 @@ TEST_F(RunAgain, AKilledVariantIsGoneOnWith) {
                                 HasSubstr("iterations-20000: goes on where an earlier run has stopped: " +
                                           std::to_string(before.size()) + " of ")));
   good(run_room("whole"));
-  EXPECT_EQ(content(file("all/iterations-20000/trials.jsonl")),
-            content(file("whole/iterations-20000/trials.jsonl")));
+  EXPECT_EQ(content("all/iterations-20000/trials.jsonl"), content("whole/iterations-20000/trials.jsonl"));
   EXPECT_EQ(without_times(json("all/iterations-20000/summary.json")),
             without_times(json("whole/iterations-20000/summary.json")));
 }
@@ -166,11 +165,11 @@ TEST_F(RunInterruptedAtOnce, IsGoneOnWithInVariants) {
 
 TEST_F(RunAgain, AKillBetweenTheSummaryAndTheEndLosesNothing) {
   good(run_room("a"));
-  const std::string steps = content(file("a/steps.jsonl"));
-  fs::rename(file("a"), file(".a.unfinished"));
+  const std::string steps = content("a/steps.jsonl");
+  fs::rename("a", ".a.unfinished");
   good(run_room("a", ""));
-  EXPECT_EQ(content(file("a/steps.jsonl")), steps) << "no step was run again";
-  EXPECT_FALSE(fs::exists(file(".a.unfinished")));
+  EXPECT_EQ(content("a/steps.jsonl"), steps) << "no step was run again";
+  EXPECT_FALSE(fs::exists(".a.unfinished"));
 }
 
 TEST_F(RunAgain, AnotherRunStartsAfreshAndSaysWhy) {
@@ -183,7 +182,7 @@ TEST_F(RunAgain, AnotherRunStartsAfreshAndSaysWhy) {
   good(run_room("two", "--quiet --seed 2"));
   expect_same_results("two", "a");
 
-  fs::remove_all(file("a"));
+  fs::remove_all("a");
   kill_run("a", SIGKILL, three);
   std::ofstream(file("world.yaml"), std::ios::app) << "# a change\n";
   answer = good(run_room("a"));

@@ -55,11 +55,11 @@ double distance_to_walls(const Point& p) {
 
 TEST_F(RunCommand, LeavesTheScanOfEachStepInTheRobotsFrame) {
   good(run_room("a", "--quiet --set output.maps=all"));
-  for (const Json& step : json_lines(file("a/steps.jsonl"))) {
+  for (const Json& step : json_lines("a/steps.jsonl")) {
     const Json& pose = step["reference"];
     const Transform map_from_robot(Pose2{pose["x"], pose["y"], pose["theta"]});
-    const Points hits = read_pcd(file(
-        fmt::format("a/maps/trial_{:04}/scan_{:04}.pcd", step["trial"].get<int>(), step["step"].get<int>())));
+    const Points hits = read_pcd(
+        fmt::format("a/maps/trial_{:04}/scan_{:04}.pcd", step["trial"].get<int>(), step["step"].get<int>()));
     EXPECT_GT(hits.size(), 50U);
     for (std::size_t i = 0; i < hits.size(); ++i)
       ASSERT_LT(distance_to_walls(map_from_robot(hits[i])), 0.15)
@@ -74,11 +74,10 @@ TEST_F(RunCommand, TellsOfAnExperimentThatCanNeverDeclare) {
       "no trial can end with a declared pose: the verdict rule 'consecutive_rating' declares none before "
       "step 3, and no trial has more than 1.";
   EXPECT_THAT(run_room("a", one_step).err, HasSubstr(why));
-  EXPECT_THAT(run("check " + file("room.yaml") + " " + one_step).err, HasSubstr(why));
-  EXPECT_THAT(run("check " + file("room.yaml")).err, Not(HasSubstr("no trial can end")));
+  EXPECT_THAT(run("check room.yaml " + one_step).err, HasSubstr(why));
+  EXPECT_THAT(run("check room.yaml").err, Not(HasSubstr("no trial can end")));
   const std::string sooner = " --set localizer.verdict_rule.consecutive_rating.consecutive=1";
-  EXPECT_THAT(run("check " + file("room.yaml") + " " + one_step + sooner).err,
-              Not(HasSubstr("no trial can end")));
+  EXPECT_THAT(run("check room.yaml " + one_step + sooner).err, Not(HasSubstr("no trial can end")));
 }
 
 TEST_F(RunCommand, SaysWhichMethodAnExperimentWithoutOneIsRunWith) {
@@ -86,10 +85,10 @@ TEST_F(RunCommand, SaysWhichMethodAnExperimentWithoutOneIsRunWith) {
                 "schema: 1\nname: bare\nmap: {simulation: {world: world.yaml}}\n"
                 "observations: {simulation: {world: world.yaml}}\ntrials: {starts_m: [0], max_steps: 1}\n");
   const std::string said = "bare.yaml names no localizer: it is run with the paper's method";
-  EXPECT_THAT(run("run " + file("bare.yaml") + " --out " + file("bare")).err, HasSubstr(said));
+  EXPECT_THAT(run("run bare.yaml --out bare").err, HasSubstr(said));
   for (const std::string options :
        {"a --quiet", "b --method indexed", "c --set localizer.matcher=indexed_ransam"}) {
-    const Answer answer = good(run("run " + file("bare.yaml") + " --out " + file("") + options));
+    const Answer answer = good(run("run bare.yaml --out " + file("") + options));
     EXPECT_THAT(answer.err, testing::Not(HasSubstr(said))) << options;
   }
 }
@@ -114,16 +113,16 @@ TEST_F(RunCommand, OnlyValuesChangeResults) {
   // A run waits for what a step leaves open, so that pieces change nothing but times.
   for (const char* pieces : {"piece1", "piece10", "piece1000000000"}) expect_same_results("piece0", pieces);
   bool has_gone_on = false;
-  for (const Json& step : json_lines(file("piece1/steps.jsonl"))) {
+  for (const Json& step : json_lines("piece1/steps.jsonl")) {
     EXPECT_FALSE(step.value("/verification/goes_on"_json_pointer, false)) << step;
     has_gone_on = has_gone_on || step["stage_ms"].contains("after");
   }
   EXPECT_TRUE(has_gone_on);
-  for (const Json& step : json_lines(file("piece0/steps.jsonl")))
+  for (const Json& step : json_lines("piece0/steps.jsonl"))
     EXPECT_FALSE(step["stage_ms"].contains("after")) << step;
-  good(run("run " + file("one/effective.yaml") + " --quiet --out " + file("again")));
+  good(run("run one/effective.yaml --quiet --out again"));
   expect_same_results("one", "again");
-  EXPECT_EQ(content(file("one/effective.yaml")), content(file("again/effective.yaml")));
+  EXPECT_EQ(content("one/effective.yaml"), content("again/effective.yaml"));
   good(run_room("other", values + "2"));
   EXPECT_NE(lines("one/steps.jsonl"), lines("other/steps.jsonl"));
 }
@@ -134,7 +133,7 @@ TEST_F(RunCommand, ABadConfigurationLeavesNoFolder) {
     const Answer answer = run_room("a", std::string("--set ") + set);
     EXPECT_EQ(answer.exit_code, 2) << set;
     EXPECT_THAT(answer.err, HasSubstr("error")) << set;
-    EXPECT_FALSE(fs::exists(file("a"))) << set;
+    EXPECT_FALSE(fs::exists("a")) << set;
   }
   for (const auto& entry : fs::directory_iterator(folder_.path())) {
     EXPECT_EQ(entry.path().string().find("unfinished"), std::string::npos) << entry.path();
@@ -144,8 +143,8 @@ TEST_F(RunCommand, ABadConfigurationLeavesNoFolder) {
 TEST_F(RunCommand, SaysWhatIsWrongWithTheFolderBeforeAnythingIsComputed) {
   const Answer quiet = good(run_room("a"));
   EXPECT_EQ(quiet.out + quiet.err, "");
-  fs::create_directory_symlink("there", file("here"));
-  fs::create_directory_symlink("here", file("there"));
+  fs::create_directory_symlink("there", "here");
+  fs::create_directory_symlink("here", "there");
   // What the drive is too short for shows only when it is there.
   const std::string too_long = "--quiet --set trials.min_steps=100000";
   EXPECT_THAT(refusal(run_room("a", too_long)), HasSubstr("the folder exists and is not empty"));
@@ -157,25 +156,25 @@ TEST_F(RunCommand, SaysWhatIsWrongWithTheFolderBeforeAnythingIsComputed) {
 }
 
 TEST_F(RunCommand, WritesWhatALinkLeadsTo) {
-  fs::create_directory_symlink("missing", file("link"));
+  fs::create_directory_symlink("missing", "link");
   for (const std::string seed : {"1", "2"}) {
     good(run_room("link", "--quiet --force --seed " + seed));
-    EXPECT_TRUE(fs::is_symlink(file("link")));
+    EXPECT_TRUE(fs::is_symlink("link"));
     EXPECT_EQ(json("missing/summary.json")["seed"], std::stoi(seed));
   }
   write_experiment("trials: {every_scan: 6, max_steps: 2}\n",
                    "variants: {list: {a: {seed: 3}, b: {seed: 4}}}\n");
-  fs::create_directory_symlink("others", file("variants"));
+  fs::create_directory_symlink("others", "variants");
   good(run_room("variants"));
   EXPECT_EQ(json("others/b/summary.json")["seed"], 4);
 }
 
 TEST_F(RunCommand, AFullDiskLeavesNothing) {
-  const std::string limited = "-c 'ulimit -f 4; exec " GLOCAL_PROGRAM " run " + file("room.yaml") +
-                              " --quiet --out " + file("a") + "' 2>" + file("why");
+  const std::string limited =
+      "-c 'ulimit -f 4; exec " GLOCAL_PROGRAM " run room.yaml --quiet --out " + file("a") + "' 2>why";
   const int status = std::system(("bash " + limited).c_str());
   EXPECT_EQ(WEXITSTATUS(status), 1);
-  EXPECT_THAT(content(file("why")),
+  EXPECT_THAT(content("why"),
               AllOf(HasSubstr(file("a") + ": cannot write "), HasSubstr(": File too large (for the limit")));
   for (const auto& entry : fs::directory_iterator(folder_.path())) {
     EXPECT_TRUE(entry.is_regular_file()) << entry.path();
@@ -185,18 +184,17 @@ TEST_F(RunCommand, AFullDiskLeavesNothing) {
 TEST_F(RunCommand, AnInterruptKeepsFinishedTrials) {
   // Enough trials for half a minute; interrupted as soon as the first has been written.
   write_experiment("trials: {every_scan: 1, max_steps: 10}\n");
-  const std::string start = GLOCAL_PROGRAM " run " + file("room.yaml") +
-                            " --set localizer.matcher.ransam.iterations=300000 --out " + file("a") + " >" +
-                            file("out") + " 2>" + file("err") + " & pid=$!; ";
-  const std::string interrupt = "for i in $(seq 600); do grep -qs \" trial \" " +
-                                file(".a.unfinished/journal/") + "* && break; sleep 0.1; done; " +
-                                "kill -INT $pid; wait $pid";
+  const std::string start = GLOCAL_PROGRAM
+      " run room.yaml --set localizer.matcher.ransam.iterations=300000 --out a >out 2>err & pid=$!; ";
+  const std::string interrupt =
+      "for i in $(seq 600); do grep -qs \" trial \" .a.unfinished/journal/* && break; sleep 0.1; done; kill "
+      "-INT $pid; wait $pid";
   const int status = std::system(("bash -c '" + start + interrupt + "'").c_str());
-  ASSERT_EQ(WEXITSTATUS(status), 3) << content(file("err"));
-  EXPECT_THAT(content(file("err")), HasSubstr("trials were finished and kept"));
+  ASSERT_EQ(WEXITSTATUS(status), 3) << content("err");
+  EXPECT_THAT(content("err"), HasSubstr("trials were finished and kept"));
   const Json summary = json("a/summary.json");
   EXPECT_EQ(summary["complete"], false);
-  const std::string trials = content(file("a/trials.jsonl"));
+  const std::string trials = content("a/trials.jsonl");
   EXPECT_EQ(summary["trials"]["count"], std::count(trials.begin(), trials.end(), '\n'));
   EXPECT_GE(summary["trials"]["count"], 1);
 }
@@ -204,15 +202,15 @@ TEST_F(RunCommand, AnInterruptKeepsFinishedTrials) {
 // Nothing the robot sees can tell.
 TEST_F(RunCommand, APerfectlySymmetricWorldIsNeverDeclared) {
   write_symmetric_world();
-  std::ofstream(file("room.yaml")) << "schema: 1\n"
-                                      "name: room\n"
-                                      "map: {simulation: {world: world.yaml}}\n"
-                                      "observations: {simulation: {world: world.yaml}}\n"
-                                      "trials: {whole: true}\n"
-                                      "localizer: {matcher: indexed_ransam, threshold_policy: fixed, "
-                                      "verdict_rule: staged_margin}\n";
+  std::ofstream("room.yaml") << "schema: 1\n"
+                                "name: room\n"
+                                "map: {simulation: {world: world.yaml}}\n"
+                                "observations: {simulation: {world: world.yaml}}\n"
+                                "trials: {whole: true}\n"
+                                "localizer: {matcher: indexed_ransam, threshold_policy: fixed, "
+                                "verdict_rule: staged_margin}\n";
   good(run_room("symmetric"));
-  const std::vector<Json> steps = json_lines(file("symmetric/steps.jsonl"));
+  const std::vector<Json> steps = json_lines("symmetric/steps.jsonl");
   for (const Json& step : steps) {
     EXPECT_EQ(step["verdict"], "ambiguous") << step["step"];
     EXPECT_THAT(step["why"].get<std::string>(), HasSubstr("2 poses")) << step["step"];

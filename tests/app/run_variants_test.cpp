@@ -40,7 +40,7 @@ TEST_F(RunVariants, EachHasAFolderAndALineOfTheTable) {
   const std::string effective = content(file("all/other/effective.yaml"));
   EXPECT_THAT(effective, AllOf(HasSubstr("iterations: 15000"), Not(HasSubstr("variants"))));
   // The same as a run of its own.
-  good(run("run " + file("all/other/effective.yaml") + " --quiet --out " + file("alone")));
+  good(run("run " + file("all/other/effective.yaml") + " --quiet --out alone"));
   expect_same_results("alone", "all/other");
 }
 
@@ -63,20 +63,20 @@ TEST_F(RunVariants, ResultsSayWhatSettingCaseAndSeedTheyAreOf) {
 
 TEST_F(RunVariants, OnlyThoseThatAreNamed) {
   good(run_room("all", "--quiet --only other"));
-  EXPECT_TRUE(fs::exists(file("all/other/summary.json")));
-  EXPECT_FALSE(fs::exists(file("all/paper")));
+  EXPECT_TRUE(fs::exists("all/other/summary.json"));
+  EXPECT_FALSE(fs::exists("all/paper"));
   EXPECT_EQ(refusal(run_room("none", "--only papr --only other")),
             "--only papr: error: no such variant (did you mean 'paper'?)\n1 error\n");
-  EXPECT_FALSE(fs::exists(file("none")));
+  EXPECT_FALSE(fs::exists("none"));
 }
 
 TEST_F(RunVariants, WhatIsFinishedIsKeptIfItIsTheSame) {
   good(run_room("all", "--quiet --only paper"));
-  const auto written = fs::last_write_time(file("all/paper/summary.json"));
+  const auto written = fs::last_write_time("all/paper/summary.json");
   const Answer answer = good(run_room("all", ""));
   EXPECT_THAT(answer.err, AllOf(HasSubstr("paper: kept, as an earlier run has finished it"),
                                 Not(HasSubstr("other: kept"))));
-  EXPECT_EQ(fs::last_write_time(file("all/paper/summary.json")), written);
+  EXPECT_EQ(fs::last_write_time("all/paper/summary.json"), written);
 
   // Another variant has changed since, and it alone is in the way.
   write_variants("18000");
@@ -86,7 +86,7 @@ TEST_F(RunVariants, WhatIsFinishedIsKeptIfItIsTheSame) {
                 "(effective.yaml); choose another folder with --out, or replace earlier results "
                 "with --force\n1 error\n");
   good(run_room("all", "--quiet --force"));
-  EXPECT_EQ(fs::last_write_time(file("all/paper/summary.json")), written);
+  EXPECT_EQ(fs::last_write_time("all/paper/summary.json"), written);
   EXPECT_THAT(content(file("all/other/effective.yaml")), HasSubstr("iterations: 18000"));
 }
 
@@ -99,7 +99,7 @@ TEST_F(RunVariants, ABadVariantLeavesNothingOfAny) {
   write_experiment("trials: {every_scan: 9}\n",
                    "variants: {list: {paper: {}, none: {trials.min_steps: 100000}}}\n");
   EXPECT_THAT(refusal(run_room("all")), HasSubstr("error: variant 'none': trials: none of "));
-  EXPECT_FALSE(fs::exists(file("all")));
+  EXPECT_FALSE(fs::exists("all"));
 }
 
 TEST_F(RunVariants, AVariantWithAnotherDriveSaysSo) {
@@ -130,7 +130,7 @@ TEST_F(RunVariants, ResultsWithoutVariantsAreNotMixedWithThem) {
 }
 
 TEST_F(RunVariants, AreCheckedWithoutRunningThem) {
-  const Answer answer = good(run("check " + file("room.yaml")));
+  const Answer answer = good(run("check room.yaml"));
   EXPECT_THAT(answer.out, MatchesRegex(".*: ok, .* trials of each of 2 variants\n"));
   write_experiment("trials: {every_scan: 9, max_steps: 6}\n",
                    "variants: {list: {few: {}, many: {trials.every_scan: 4}}}\n");
@@ -138,7 +138,7 @@ TEST_F(RunVariants, AreCheckedWithoutRunningThem) {
   const auto trials = [&](const std::string& variant) {
     return json("counted/" + variant + "/summary.json")["trials"]["count"].get<int>();
   };
-  EXPECT_THAT(run("check " + file("room.yaml")).out,
+  EXPECT_THAT(run("check room.yaml").out,
               HasSubstr(std::to_string(trials("few") + trials("many")) + " trials of 2 variants\n"));
 }
 

@@ -108,8 +108,8 @@ TEST_F(Shards, OfAnExperimentWithoutVariants) {
   ASSERT_EQ(merge().exit_code, 0) << "once more, over what is there";
   good(run_room("one"));
   expect_same_results("one", "shared");
-  EXPECT_FALSE(fs::exists(file("shared/.shards/merged")));
-  good(run("summarize " + file("shared")));
+  EXPECT_FALSE(fs::exists("shared/.shards/merged"));
+  good(run("summarize shared"));
 }
 
 TEST_F(Shards, OtherNumbersOfThreadsAreTold) {
@@ -118,7 +118,7 @@ TEST_F(Shards, OtherNumbersOfThreadsAreTold) {
   good(run_shard("2/2", "--quiet --threads 2"));
   good(merge());
   EXPECT_EQ(json("shared/provenance.json")["threads"], 0);
-  good(run("summarize " + file("shared")));
+  good(run("summarize shared"));
 }
 
 TEST_F(Shards, OtherNumbersOfShardsDoOnlyWhatIsMissing) {
@@ -227,7 +227,7 @@ TEST_F(Shards, AFolderOfAnotherExperimentIsRefused) {
 
 TEST_F(Shards, AChangedInputIsRefused) {
   good(run_shard("1/2"));
-  std::ofstream(file("world.yaml"), std::ios::app) << "# a change\n";
+  std::ofstream("world.yaml", std::ios::app) << "# a change\n";
   EXPECT_THAT(refusal(run_shard("2/2")),
               HasSubstr("world.yaml: error: has changed since the first shard has run"));
   EXPECT_EQ(finished().size(), 10U);
@@ -239,16 +239,16 @@ TEST_F(Shards, BadNumbersAreRefused) {
     EXPECT_EQ(answer.exit_code, 2) << shard;
     EXPECT_THAT(answer.err, HasSubstr("--shard " + std::string(shard) + ": error: is no shard; give"));
   }
-  EXPECT_FALSE(fs::exists(file("shared")));
+  EXPECT_FALSE(fs::exists("shared"));
   EXPECT_EQ(run_shard("1/2", "--force").exit_code, 2);
-  EXPECT_EQ(run("run " + file("room.yaml") + " --shard 1/2").exit_code, 2) << "without --out";
+  EXPECT_EQ(run("run room.yaml --shard 1/2").exit_code, 2) << "without --out";
 }
 
 TEST_F(Shards, FaultsOfTheExperimentLeaveNothing) {
   write_experiment("trials: {every_scan: 2, max_steps: 6}\n",
                    "variants: {list: {far: {trials.starts_m: [1000], trials.every_scan: 0}}}\n");
   EXPECT_THAT(refusal(run_shard("1/2")), HasSubstr("variant 'far': "));
-  EXPECT_FALSE(fs::exists(file("shared")));
+  EXPECT_FALSE(fs::exists("shared"));
 }
 
 // Journals are read in the order of their names, whichever was first.
@@ -268,7 +268,7 @@ TEST_F(Shards, ResultsOfAnotherRunAreNotReplaced) {
   // Nor are those of a run that was interrupted: it can be gone on with.
   Json summary = json("shared/iterations-10000/summary.json");
   summary["complete"] = false;
-  std::ofstream(file("shared/iterations-10000/summary.json")) << summary;
+  std::ofstream("shared/iterations-10000/summary.json") << summary;
   EXPECT_THAT(refusal(merge()),
               HasSubstr("iterations-10000: error: output: the folder has results of another run"));
   good(merge("--quiet --force"));
@@ -276,7 +276,7 @@ TEST_F(Shards, ResultsOfAnotherRunAreNotReplaced) {
   good(run_room("before", "--quiet --seed 2"));
   EXPECT_THAT(refusal(run_room("before", "--quiet --shard 1/2")),
               HasSubstr("before/iterations-10000: error: output: the folder has results of a run without"));
-  EXPECT_FALSE(fs::exists(file("before/.shards")));
+  EXPECT_FALSE(fs::exists("before/.shards"));
   write_experiment("trials: {every_scan: 2, max_steps: 6}\n");
   good(run_room("plain"));
   EXPECT_EQ(run_room("plain", "--shard 1/1").exit_code, 2) << "results of a run without shards are there";
@@ -286,34 +286,33 @@ TEST_F(Shards, AMergeThatWasKilledIsDoneAgain) {
   write_experiment("trials: {every_scan: 6, max_steps: 5}\n");
   good(run_shard("1/1"));
   good(merge());
-  const std::string trials = content(file("shared/trials.jsonl"));
+  const std::string trials = content("shared/trials.jsonl");
   // As if it had not come to the last two files.
-  fs::create_directory(file("shared/.shards/merged"));
+  fs::create_directory("shared/.shards/merged");
   for (const std::string name : {"summary.json", "trials.jsonl"})
-    fs::rename(file("shared/" + name), file("shared/.shards/merged/" + name));
+    fs::rename("shared/" + name, "shared/.shards/merged/" + name);
   good(merge());
-  EXPECT_EQ(content(file("shared/trials.jsonl")), trials);
-  EXPECT_TRUE(fs::exists(file("shared/summary.json")));
-  EXPECT_FALSE(fs::exists(file("shared/.shards/merged")));
+  EXPECT_EQ(content("shared/trials.jsonl"), trials);
+  EXPECT_TRUE(fs::exists("shared/summary.json"));
+  EXPECT_FALSE(fs::exists("shared/.shards/merged"));
 }
 
 TEST_F(Shards, AFolderWithoutShardsIsRefused) {
-  for (const char* command : {"status ", "merge "}) {
-    EXPECT_THAT(refusal(run(command + file("nowhere"))), HasSubstr("no shards have run here"));
+  for (const std::string command : {"status ", "merge "}) {
+    EXPECT_THAT(refusal(run(command + "nowhere")), HasSubstr("no shards have run here"));
   }
   good(run_shard("1/2"));
-  std::ofstream(file("shared/.shards/manifest.json")) << "{";
-  EXPECT_THAT(refusal(run("status " + file("shared"))), HasSubstr("manifest.json: error: is damaged"));
+  std::ofstream("shared/.shards/manifest.json") << "{";
+  EXPECT_THAT(refusal(run("status shared")), HasSubstr("manifest.json: error: is damaged"));
 }
 
 TEST_F(Shards, AFullDiskEndsOneShardAndOthersGoOn) {
   // 64 blocks of 1024 bytes: the limit of the shell stands for the disk.
   const std::string limited = "ulimit -f 64; " GLOCAL_PROGRAM " run " + file("room.yaml") +
-                              " --quiet --shard 1/2 --out " + file("shared") + " 2>" + file("said");
+                              " --quiet --shard 1/2 --out " + file("shared") + " 2>said";
   EXPECT_EQ(std::system(("bash -c '" + limited + "'").c_str()), 1 << 8);
-  EXPECT_THAT(content(file("said")),
-              AllOf(HasSubstr("cannot write: File too large"),
-                    HasSubstr("finished trials are kept: give the same command again")));
+  EXPECT_THAT(content("said"), AllOf(HasSubstr("cannot write: File too large"),
+                                     HasSubstr("finished trials are kept: give the same command again")));
   good(run_shard("2/2"));
   good(run_shard("1/2"));
   good(merge());
@@ -322,37 +321,37 @@ TEST_F(Shards, AFullDiskEndsOneShardAndOthersGoOn) {
 
 TEST_F(Shards, AReportShowsWhatIsThereSoFar) {
   good(run_shard("1/2"));
-  const Answer report = good(run("report " + file("shared") + " -o " + file("so_far.html")));
+  const Answer report = good(run("report shared -o so_far.html"));
   EXPECT_THAT(report.err, HasSubstr("as far as it is: 10 of 22 trials"));
-  EXPECT_THAT(content(file("so_far.html")), HasSubstr("iterations-10000"));
-  const Answer sweep = good(run("sweep " + file("shared")));
+  EXPECT_THAT(content("so_far.html"), HasSubstr("iterations-10000"));
+  const Answer sweep = good(run("sweep shared"));
   EXPECT_THAT(sweep.out, HasSubstr("2 runs without all trials"));
-  EXPECT_FALSE(fs::exists(file("shared/iterations-10000"))) << "the folder is left as it is";
+  EXPECT_FALSE(fs::exists("shared/iterations-10000")) << "the folder is left as it is";
   // Runs of one name go by their folders: those that were given, not those that are put together.
   fs::create_directory(file("copy"));
-  fs::copy(file("shared"), file("copy/shared"), fs::copy_options::recursive);
-  good(run("report " + file("shared") + " " + file("copy/shared") + " -o " + file("both.html")));
-  EXPECT_THAT(content(file("both.html")), HasSubstr(file("copy/shared/iterations-10000")));
+  fs::copy("shared", file("copy/shared"), fs::copy_options::recursive);
+  good(run("report shared " + file("copy/shared") + " -o both.html"));
+  EXPECT_THAT(content("both.html"), HasSubstr(file("copy/shared/iterations-10000")));
   good(run_shard("2/2"));
   good(merge());
-  EXPECT_EQ(run("report " + file("shared") + " -o " + file("all.html")).err, "");
+  EXPECT_EQ(run("report shared -o all.html").err, "");
 }
 
 TEST_F(Shards, WhatCannotBeShownLeavesNothingBehind) {
   good(run_shard("1/2"));
-  fs::create_directory(file("tmp"));
-  fs::copy(file("shared"), file("begun"), fs::copy_options::recursive);
-  fs::remove_all(file("begun/.shards/journals"));
+  fs::create_directory("tmp");
+  fs::copy("shared", "begun", fs::copy_options::recursive);
+  fs::remove_all("begun/.shards/journals");
   ::setenv("TMPDIR", file("tmp").c_str(), 1);
-  const Answer report = run("report " + file("shared") + " " + file("begun") + " -o " + file("both.html"));
+  const Answer report = run("report shared begun -o both.html");
   ::unsetenv("TMPDIR");
   EXPECT_THAT(refusal(report), HasSubstr("begun: error: no trial has come to an end yet"));
-  EXPECT_TRUE(fs::is_empty(file("tmp")));
+  EXPECT_TRUE(fs::is_empty("tmp"));
 }
 
 TEST_F(Shards, WatchedStatusEndsWhenAllIsDone) {
   good(run_shard("1/1"));
-  const Answer answer = good(run("status " + file("shared") + " --watch"));
+  const Answer answer = good(run("status shared --watch"));
   EXPECT_THAT(answer.out, HasSubstr("22 of 22 trials done"));
 }
 

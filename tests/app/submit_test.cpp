@@ -172,10 +172,10 @@ TEST_F(Submit, RefusesOptionsThatSchedulersWouldMisread) {
   expect_refused("--slurm --sshlogin hosts", "--sshlogin requires --parallel");
   expect_refused("--slurm --set nothing", "not of the form path=value");
   expect_refused("--parallel --time 10", "--time requires --slurm");
-  expect_refused("--parallel --sshlogin " + file("hosts"), "hosts: error: cannot be read: No such file");
-  EXPECT_THAT(refusal(run("submit " + file("room.yaml") + " --slurm --out '" + file("a\\b") + "'")),
+  expect_refused("--parallel --sshlogin hosts", "hosts: error: cannot be read: No such file");
+  EXPECT_THAT(refusal(run("submit room.yaml --slurm --out 'a\\b'")),
               HasSubstr("a line break or a backslash"));
-  EXPECT_FALSE(fs::exists(file("a\\b")));
+  EXPECT_FALSE(fs::exists("a\\b"));
 }
 
 TEST_F(Submit, TellsWhereThereIsNoGnuParallel) {
@@ -215,7 +215,7 @@ TEST_F(Submit, GnuParallelRunsWhatAnExperimentHasGotSince) {
   good(submit("--parallel --shards 2"));
   write_experiment("trials: {every_scan: 2, max_steps: 6}\n", "seeds: [1, 2]\n");
   good(submit("--parallel --shards 2"));
-  EXPECT_TRUE(fs::exists(file("results/seed-2/summary.json")));
+  EXPECT_TRUE(fs::exists("results/seed-2/summary.json"));
 }
 
 }  // namespace

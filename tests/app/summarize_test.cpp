@@ -50,7 +50,7 @@ class SummarizeCommand : public Room {
 };
 
 TEST_F(SummarizeCommand, HasARowForEachFolder) {
-  const Answer answer = good(run("summarize " + file("runs")));
+  const Answer answer = good(run("summarize runs"));
   EXPECT_EQ(answer.err, "");
   // Wilson, 95 %: 1 of 4 is 4.6 to 69.9 %, 0 of 2 is 0 to 65.8 %.
   EXPECT_EQ(
@@ -80,12 +80,12 @@ TEST_F(SummarizeCommand, PoolsTrialsNotMedians) {
 }
 
 TEST_F(SummarizeCommand, LooksAtSomeStepsOnly) {
-  EXPECT_EQ(summary("--steps 1:9 " + file("runs/a"))[0]["step_ms"]["median"], 20.0);
-  EXPECT_EQ(summary("--steps 0:1 " + file("runs/a"))[0]["step_ms"]["median"], 30.0);
-  EXPECT_FALSE(summary("--steps 7:9 " + file("runs/a"))[0].contains("step_ms"));
-  EXPECT_THAT(run("summarize --no-head --steps 7:9 " + file("runs/a")).out, EndsWith("| – |\n"));
+  EXPECT_EQ(summary("--steps 1:9 runs/a")[0]["step_ms"]["median"], 20.0);
+  EXPECT_EQ(summary("--steps 0:1 runs/a")[0]["step_ms"]["median"], 30.0);
+  EXPECT_FALSE(summary("--steps 7:9 runs/a")[0].contains("step_ms"));
+  EXPECT_THAT(run("summarize --no-head --steps 7:9 runs/a").out, EndsWith("| – |\n"));
   for (const char* wrong : {"5", "5:", ":5", "5:5", "7:5", "a:b", "1:2:3"}) {
-    const Answer answer = run("summarize --steps " + std::string(wrong) + " " + file("runs/a"));
+    const Answer answer = run("summarize --steps " + std::string(wrong) + " runs/a");
     EXPECT_EQ(answer.exit_code, 2) << wrong;
     EXPECT_THAT(answer.err, HasSubstr("is no range of steps")) << wrong;
   }
@@ -96,7 +96,7 @@ TEST_F(SummarizeCommand, SaysWhatTheRunItselfSays) {
   good(run_room("c"));
   const Json own = json("c/summary.json");
   ASSERT_GT(own["trials"]["right"], 0);
-  const Json told = summary(file("c"))[0];
+  const Json told = summary("c")[0];
   for (const auto& [key, value] : told.items()) {
     if (key == "name" || key == "folders") continue;
     if (key == "rotation_error_deg" || key == "after_declaration") continue;
@@ -115,22 +115,20 @@ TEST_F(SummarizeCommand, SaysWhatTheRunItselfSays) {
 TEST_F(SummarizeCommand, LeavesOutWhatIsNotKnown) {
   // Nothing is declared in a single step.
   good(run_room("none", "--quiet --set output.steps=false --set trials.max_steps=1"));
-  const Answer answer = run("summarize --no-head " + file("none"));
+  const Answer answer = run("summarize --no-head none");
   EXPECT_THAT(answer.out, AllOf(StartsWith("| none |"), EndsWith("| – | – | – |\n")));
-  const Json row = summary(file("none"))[0];
+  const Json row = summary("none")[0];
   EXPECT_FALSE(row.contains("step_ms"));
   EXPECT_TRUE(row.contains("success_rate"));
   // Without any reference none is wrong, whatever was declared.
-  replace_lines(file("none"), {{{"outcome", "declared"}}, {{"outcome", "undecided"}}}, {});
-  EXPECT_EQ(run("summarize --no-head " + file("none")).out,
-            "| none | 2 | 0 | 0 | 1, 1 not judged | – | – | – | – |\n");
+  replace_lines("none", {{{"outcome", "declared"}}, {{"outcome", "undecided"}}}, {});
+  EXPECT_EQ(run("summarize --no-head none").out, "| none | 2 | 0 | 0 | 1, 1 not judged | – | – | – | – |\n");
 }
 
 TEST_F(SummarizeCommand, RefusesWhatItCannotName) {
-  EXPECT_THAT(refusal(run("summarize --name one " + file("runs"))),
-              HasSubstr("--name one: error: there are 2 rows"));
-  EXPECT_THAT(run("summarize --name one --no-head " + file("runs/a")).out, StartsWith("| one | 4 |"));
-  EXPECT_THAT(run("summarize " + file("runs/a") + " " + file("runs")).err, HasSubstr("is named twice"));
+  EXPECT_THAT(refusal(run("summarize --name one runs")), HasSubstr("--name one: error: there are 2 rows"));
+  EXPECT_THAT(run("summarize --name one --no-head runs/a").out, StartsWith("| one | 4 |"));
+  EXPECT_THAT(run("summarize runs/a runs").err, HasSubstr("is named twice"));
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ class SweepCommand : public Room {
 
 TEST_F(SweepCommand, TellsWhatIsBestAndWhyAndWhatToReport) {
   set_all_outcomes();
-  const Answer answer = good(run("sweep " + file("all")));
+  const Answer answer = good(run("sweep all"));
   EXPECT_EQ(answer.err, "");
   EXPECT_THAT(answer.out, HasSubstr("room: 16 runs, 4 settings, 2 seeds, 2 cases\n"));
   // Twice 3 of 4 right, twice the same: Wilson's interval of 3 of 4.
@@ -78,7 +78,7 @@ TEST_F(SweepCommand, TellsWhatIsBestAndWhyAndWhatToReport) {
 
 TEST_F(SweepCommand, HasAllNumbersAsJson) {
   set_all_outcomes();
-  const Answer answer = good(run("sweep " + file("all") + " --json --map min_side iterations"));
+  const Answer answer = good(run("sweep all --json --map min_side iterations"));
   const Json json = Json::parse(answer.out);
   EXPECT_EQ(json["settings"][0]["setting"], "iterations-200_min_side-0.5");
   EXPECT_EQ(json["settings"][0]["values"]["localizer.matcher.ransam.iterations"], "200");
@@ -90,16 +90,16 @@ TEST_F(SweepCommand, HasAllNumbersAsJson) {
   EXPECT_EQ(json["chance"]["baseline"], "iterations-100_min_side-0.5");
   EXPECT_EQ(json["settings"][0]["over_baseline"]["lead"], 0.5);
   EXPECT_EQ(json["choose_on"].dump(), R"(["near"])");
-  EXPECT_EQ(run("sweep " + file("all") + " --json --map min_side iterations").out, answer.out);
+  EXPECT_EQ(run("sweep all --json --map min_side iterations").out, answer.out);
 }
 
 TEST_F(SweepCommand, MarksWhatIsIncomplete) {
   set_all_outcomes();
-  fs::remove_all(file("all/iterations-200_min_side-0.5_near_seed-2"));
-  const Answer answer = good(run("sweep " + file("all") + " --top 1"));
+  fs::remove_all("all/iterations-200_min_side-0.5_near_seed-2");
+  const Answer answer = good(run("sweep all --top 1"));
   EXPECT_THAT(answer.out, AllOf(HasSubstr("1 setting without all cases, seeds or trials, marked with *"),
                                 HasSubstr("\n  3 settings more; --top 4 shows all.\n")));
-  EXPECT_THAT(run("sweep " + file("all")).out, HasSubstr("  iterations-200_min_side-0.5 * "));
+  EXPECT_THAT(run("sweep all").out, HasSubstr("  iterations-200_min_side-0.5 * "));
 }
 
 TEST_F(SweepCommand, SaysWhatToDoWithOtherFolders) {
@@ -109,13 +109,13 @@ TEST_F(SweepCommand, SaysWhatToDoWithOtherFolders) {
             file("alone/provenance.json") +
                 ": error: does not say which setting these results are of; name a folder that glocal run "
                 "has left of an experiment with methods, variants, seeds or cases\n1 error\n");
-  EXPECT_EQ(run("sweep " + file("nowhere")).exit_code, 2);
-  EXPECT_THAT(run("sweep " + file("all") + " --baseline best").err,
+  EXPECT_EQ(run("sweep nowhere").exit_code, 2);
+  EXPECT_THAT(run("sweep all --baseline best").err,
               HasSubstr("--baseline best: error: there is no such setting"));
-  EXPECT_THAT(refusal(run("sweep " + file("all") + " --map iteration min_side")),
+  EXPECT_THAT(refusal(run("sweep all --map iteration min_side")),
               HasSubstr("--map iteration: error: no such parameter varies"));
-  EXPECT_EQ(run("sweep " + file("all") + " --top -1").exit_code, 2);
-  EXPECT_EQ(run("sweep " + file("all") + " --top 3 --json").exit_code, 2);
+  EXPECT_EQ(run("sweep all --top -1").exit_code, 2);
+  EXPECT_EQ(run("sweep all --top 3 --json").exit_code, 2);
 }
 
 }  // namespace

@@ -134,11 +134,11 @@ TEST_F(WatchedRun, IsShownWhileItGoesOnAndToTheEnd) {
   EXPECT_GT(trial["local_map"]["x"].size(), 50U);
   EXPECT_GT(trial["scans"]["x"].size(), 50U);
   const Json last = data_with([](const Json& data) { return data["live"]["finished"] == true; });
-  EXPECT_EQ(exit_code(), 0) << content(file("err"));
+  EXPECT_EQ(exit_code(), 0) << content("err");
   const Json& live = last["live"];
   EXPECT_EQ(live["trials_done"], live["trials"]);
   std::size_t n = 0;
-  for (const Json& line : json_lines(file("watched/trials.jsonl"))) {
+  for (const Json& line : json_lines("watched/trials.jsonl")) {
     Json shown = last["runs"][0]["trials"][n];
     EXPECT_EQ(shown["columns"]["step"].size(), 5U - (n == 3 ? 1U : 0U));
     shown.erase("columns");
@@ -155,7 +155,7 @@ TEST_F(WatchedRun, HasTheResultsOfOneThatIsNot) {
   data_with([](const Json& data) { return data["live"]["trials_done"] >= 1; });
   ASSERT_EQ(exit_code(), 0);
   expect_same_results("alone", "watched");
-  EXPECT_EQ(content(file("alone/effective.yaml")), content(file("watched/effective.yaml")));
+  EXPECT_EQ(content("alone/effective.yaml"), content("watched/effective.yaml"));
 }
 
 TEST_F(WatchedRun, AnswersOnlyWhatItsOwnPageAsks) {

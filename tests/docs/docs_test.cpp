@@ -220,7 +220,6 @@ TEST(Docs, EveryEquationHasItsFunction) {
 class DocsExamples : public CommandLine {
  protected:
   DocsExamples() { go_to(folder_.path()); }
-  ~DocsExamples() override { fs::current_path(root); }
 
   /// Works in this folder from now on; it is made for that.
   static void go_to(const fs::path& folder) {

@@ -5,15 +5,10 @@
 // and say in the commit why they changed.
 #include <gmock/gmock.h>
 
-#include <filesystem>
-#include <nlohmann/json.hpp>
-
-#include "app/program.hpp"
+#include "app/room.hpp"
 
 namespace glocal::test::golden_test {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// A run whose results are stored.
 struct GoldenRun {
@@ -26,13 +21,10 @@ class Golden : public CommandLine, public testing::WithParamInterface<GoldenRun>
  protected:
   /// What the run comes to: of a single trial with its steps, else of each.
   [[nodiscard]] Json result() const {
-    const std::string out = folder_.path() / "results";
     good(run("run " GLOCAL_SOURCE_DIR "/configs/experiments/" + GetParam().experiment +
-             ".yaml --quiet --out " + out + " " + GetParam().options));
-    std::vector<Json> trials;
-    std::ifstream lines(out + "/trials.jsonl");
-    for (std::string line; std::getline(lines, line);) trials.push_back(Json::parse(line));
-    return trials.size() == 1 ? with_steps(trials.front(), out + "/steps.jsonl") : declarations(trials);
+             ".yaml --quiet --out results " + GetParam().options));
+    const std::vector<Json> trials = json_lines("results/trials.jsonl");
+    return trials.size() == 1 ? with_steps(trials.front(), "results/steps.jsonl") : declarations(trials);
   }
 
   [[nodiscard]] static std::string stored_file() {
