@@ -120,7 +120,7 @@ async function show(report: Report, page: HTMLElement): Promise<void> {
   ];
   const hasView = !isOfMany || report.runs.some(hasMoreThanTrials);
   const pickers = el("div", { class: "controls" }, runPicker(store), trialPicker(store));
-  const view: HTMLElement = el("main", { id: "view" }, el("h2", { class: isOfMany ? "" : "unseen" }, "Step by step"));
+  const view = el("main", { id: "view" }, el("h2", { class: isOfMany ? "" : "unseen" }, "Step by step"));
   const header = el(
     "header",
     {},
@@ -130,7 +130,7 @@ async function show(report: Report, page: HTMLElement): Promise<void> {
     themeButton(redraw),
     links([...before, isOfMany && hasView ? view : null, ...after]),
   );
-  const borders = new Borders(() => view);
+  const borders = new Borders(view);
   const [right, below] = borders.handles;
   append(view, el("div", { class: "view-head" }, hasView && pickers, details.verdict), views.element, right, curves.element, below, player.element, details.element);
   followLength(view, store);

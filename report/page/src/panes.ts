@@ -54,7 +54,7 @@ class Border {
   private value: number | null = null;
 
   constructor(
-    private readonly view: () => HTMLElement,
+    private readonly view: HTMLElement,
     readonly how: BorderKind,
   ) {
     const { name, orientation, least, most, start, step } = how;
@@ -79,7 +79,7 @@ class Border {
       handle.focus();
     });
     handle.addEventListener("pointermove", (event) => {
-      if (handle.hasPointerCapture(event.pointerId)) this.move(how.valueAt(event, view()));
+      if (handle.hasPointerCapture(event.pointerId)) this.move(how.valueAt(event, view));
     });
     handle.addEventListener("keydown", (event) => {
       const direction = keys[event.key];
@@ -97,7 +97,7 @@ class Border {
     const { least, most, start, style } = this.how;
     this.value = wanted === null ? null : Math.round(Math.min(Math.max(wanted, least), most));
     for (const [name, text] of Object.entries(style(this.value ?? start)))
-      this.view().style.setProperty(name, this.value === null ? null : text);
+      this.view.style.setProperty(name, this.value === null ? null : text);
     this.handle.setAttribute("aria-valuenow", String(this.value ?? start));
   }
 
@@ -111,7 +111,7 @@ class Border {
 export class Borders implements Linked {
   private readonly all: Border[];
 
-  constructor(view: () => HTMLElement) {
+  constructor(view: HTMLElement) {
     this.all = borders.map((how) => new Border(view, how));
   }
 
