@@ -86,7 +86,7 @@ export class Store {
     return this.lastFault;
   }
   get lastStep(): number {
-    return Math.max(0, (this.steps?.step.length ?? 0) - 1);
+    return lastOf(this.steps);
   }
 
   subscribe(listener: Listener): void {
@@ -171,15 +171,13 @@ export class Store {
   private newest(): Pick<Selection, "trial" | "step"> {
     const { trials } = this.run;
     const trial = Math.max(0, trials.length - 1);
-    return { trial, step: Math.max(0, (trials[trial]?.columns?.step.length ?? 0) - 1) };
+    return { trial, step: lastOf(trials[trial]?.columns) };
   }
 
   private select(next: Wanted): void {
     const before = this.selection;
     const steps = this.current.runs[next.run].trials[next.trial]?.columns;
-    const last = Math.max(0, (steps?.step.length ?? 0) - 1);
-    const isStep = next.step !== undefined && Number.isInteger(next.step);
-    const step = isStep ? Math.min(Math.max(0, next.step ?? 0), last) : openingStep(steps);
+    const step = Number.isInteger(next.step) ? Math.min(Math.max(0, next.step ?? 0), lastOf(steps)) : openingStep(steps);
     this.selection = { ...next, step };
     this.wanted = this.selection;
     const run = next.run !== before.run;
@@ -194,10 +192,15 @@ export class Store {
   }
 }
 
+/** Index of the last step; 0 without any. */
+function lastOf(steps: Steps | undefined): number {
+  return Math.max(0, (steps?.step.length ?? 0) - 1);
+}
+
 /** Where a trial opens: at its declaration, or else at its last step. */
 function openingStep(steps: Steps | undefined): number {
   const declared = firstLocalized(steps);
-  return declared >= 0 ? declared : Math.max(0, (steps?.step.length ?? 0) - 1);
+  return declared >= 0 ? declared : lastOf(steps);
 }
 
 /** Index of the run's trial that starts where `trial` does; -1 if there is none. */
