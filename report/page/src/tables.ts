@@ -1,46 +1,37 @@
 // What is told in tables: the summary of a run, configurations and where the results are from.
 import { axesOf, differingPaths, groupOf, groupsOf, identityOf, type Group } from "./answers";
-import type { Report, Run, Summary } from "./data";
+import type { Report, Run } from "./data";
 import { table } from "./data_table";
 import { el, replace, section } from "./elements";
 import { count, fixed, proportion } from "./numbers";
 import { explained } from "./words";
 
-/** Without a trial, or a reference to judge declarations by, rates say nothing. */
-function hasRates({ trials: { count: all, right, wrong, declared_without_reference: declared = 0 } }: Summary): boolean {
-  return all > 0 && (right + wrong > 0 || declared === 0);
-}
-
-export function summarySection({ summary }: Run): HTMLElement | null {
-  if (!summary) return null;
-  const declared = summary.trials.declared_without_reference ?? 0;
-  const rows: [string, (summary: Summary) => string][] = [
-    ["experiment, seed", (s) => `${s.name}, ${s.seed}`],
-    ["trials", (s) => count(s.trials.count)],
-    ["right, wrong, undecided", (s) => `${s.trials.right}, ${s.trials.wrong}, ${s.trials.undecided}`],
-    ...(declared > 0 ? [["declared, not judged", () => count(declared)] as [string, () => string]] : []),
-    ["failed", (s) => count(s.trials.failed ?? 0)],
-    ["success", (s) => (hasRates(s) ? proportion(s.success_rate) : "–")],
-    ["wrong", (s) => (hasRates(s) ? proportion(s.false_rate) : "–")],
-    ["steps to localize, median", (s) => (s.trials.right > 0 ? fixed(s.steps_to_localize.median, 1) : "–")],
-    ["distance to localize, median", (s) => (s.trials.right > 0 ? `${fixed(s.distance_to_localize_m.median, 2)} m` : "–")],
-    [
-      "error when localized, median",
-      (s) =>
-        s.trials.right > 0
-          ? `${fixed(s.translation_error_m.median, 3)} m, ${fixed(s.rotation_error_deg.median, 2)}°`
-          : "–",
-    ],
-    ["wall time of a step, median (95 %)", (s) => (s.steps > 0 ? `${fixed(s.step_ms.median, 1)} ms (${fixed(s.step_ms.p95, 1)} ms)` : "–")],
-    ["matching, median", (s) => (s.steps > 0 ? `${fixed(s.stage_ms.match.median, 1)} ms` : "–")],
-    ["points of the map", (s) => count(s.map.points)],
-    ["memory, largest", (s) => `${fixed(s.peak_rss_mb, 0)} MiB`],
+export function summarySection({ summary: s }: Run): HTMLElement | null {
+  if (!s) return null;
+  const { count: all, right, wrong, undecided, declared_without_reference: declared = 0, failed = 0 } = s.trials;
+  // Without a trial, or a reference to judge declarations by, rates say nothing.
+  const hasRates = all > 0 && (right + wrong > 0 || declared === 0);
+  const rows: [string, string][] = [
+    ["experiment, seed", `${s.name}, ${s.seed}`],
+    ["trials", count(all)],
+    ["right, wrong, undecided", `${right}, ${wrong}, ${undecided}`],
+    ...(declared > 0 ? [["declared, not judged", count(declared)] as [string, string]] : []),
+    ["failed", count(failed)],
+    ["success", hasRates ? proportion(s.success_rate) : "–"],
+    ["wrong", hasRates ? proportion(s.false_rate) : "–"],
+    ["steps to localize, median", right > 0 ? fixed(s.steps_to_localize.median, 1) : "–"],
+    ["distance to localize, median", right > 0 ? `${fixed(s.distance_to_localize_m.median, 2)} m` : "–"],
+    ["error when localized, median", right > 0 ? `${fixed(s.translation_error_m.median, 3)} m, ${fixed(s.rotation_error_deg.median, 2)}°` : "–"],
+    ["wall time of a step, median (95 %)", s.steps > 0 ? `${fixed(s.step_ms.median, 1)} ms (${fixed(s.step_ms.p95, 1)} ms)` : "–"],
+    ["matching, median", s.steps > 0 ? `${fixed(s.stage_ms.match.median, 1)} ms` : "–"],
+    ["points of the map", count(s.map.points)],
+    ["memory, largest", `${fixed(s.peak_rss_mb, 0)} MiB`],
   ];
   return section(
     "summary",
     "Summary",
-    !summary.complete && el("p", { class: "warning" }, "Interrupted, so that trials are missing."),
-    table("summary", ["", ""], rows.map(([title, tell]) => [explained(el("span", {}, title)), tell(summary)]), "facts"),
+    !s.complete && el("p", { class: "warning" }, "Interrupted, so that trials are missing."),
+    table("summary", ["", ""], rows.map(([title, value]) => [explained(el("span", {}, title)), value]), "facts"),
     el("p", { class: "note" }, "Intervals are those after Wilson, 95 %."),
   );
 }
