@@ -7,7 +7,7 @@ import { explained } from "./words";
 interface Figure {
   label: string;
   /** Of the style sheet. */
-  kind: (summary: Summary) => string;
+  kind?: (summary: Summary) => string;
   tell: (summary: Summary) => string;
 }
 
@@ -31,11 +31,11 @@ const ofRight = (tell: (summary: Summary) => string) => (summary: Summary): stri
   summary.trials.right > 0 ? tell(summary) : "–";
 
 const medians: Figure[] = [
-  { label: "steps", kind: () => "", tell: ofRight((s) => fixed(s.steps_to_localize.median, 1).replace(".0", "")) },
-  { label: "way", kind: () => "", tell: ofRight((s) => `${fixed(s.distance_to_localize_m.median, 2)} m`) },
-  { label: "error", kind: () => "", tell: ofRight((s) => `${fixed(s.translation_error_m.median, 3)} m`) },
-  { label: "angle error", kind: () => "", tell: ofRight((s) => `${fixed(s.rotation_error_deg.median, 2)}°`) },
-  { label: "wall time of a step", kind: () => "", tell: (s) => (s.steps > 0 ? `${significant(s.step_ms.median, 2)} ms` : "–") },
+  { label: "steps", tell: ofRight((s) => fixed(s.steps_to_localize.median, 1).replace(".0", "")) },
+  { label: "way", tell: ofRight((s) => `${fixed(s.distance_to_localize_m.median, 2)} m`) },
+  { label: "error", tell: ofRight((s) => `${fixed(s.translation_error_m.median, 3)} m`) },
+  { label: "angle error", tell: ofRight((s) => `${fixed(s.rotation_error_deg.median, 2)}°`) },
+  { label: "wall time of a step", tell: (s) => (s.steps > 0 ? `${significant(s.step_ms.median, 2)} ms` : "–") },
 ];
 
 /** Names of the experiments; what runs are called besides is theirs. */
@@ -89,7 +89,7 @@ function tiles(summary: Summary): HTMLElement {
   const always = ["right", "wrong", "undecided"];
   const shown = outcomes.filter((o) => always.includes(o.label) || o.number(summary) > 0);
   const tile = ({ label, kind, tell }: Figure): HTMLElement =>
-    el("div", { class: `tile ${kind(summary)}`, "data-figure": label }, word(label), el("dd", {}, tell(summary)));
+    el("div", { class: `tile ${kind?.(summary) ?? ""}`, "data-figure": label }, word(label), el("dd", {}, tell(summary)));
   return el(
     "section",
     { id: "figures", class: "figures", "aria-label": "What came out" },
