@@ -66,3 +66,8 @@ export function errorColour(error: number): string {
 export function themeColour(name: string): string {
   return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 }
+
+/** Red, green, blue and opacity of "#rrggbb". */
+export function bytesOf(colour: string): number[] {
+  return [1, 3, 5].map((i) => parseInt(colour.slice(i, i + 2), 16)).concat(255);
+}

@@ -1,5 +1,5 @@
 // What lies below everything else on the map: free and unknown space, and lines every so many metres.
-import { themeColour } from "./colours";
+import { bytesOf, themeColour } from "./colours";
 import type { Grid } from "./data";
 import { el } from "./elements";
 import { significant } from "./numbers";
@@ -72,11 +72,6 @@ export class SpacePicture {
       if (isOnTop || image.data[at + 3] === 0) image.data.set(colour, at);
     }
   }
-}
-
-/** Of "#rrggbb", opaque. */
-function bytesOf(colour: string): number[] {
-  return [1, 3, 5].map((i) => parseInt(colour.slice(i, i + 2), 16)).concat(255);
 }
 
 /** The least of 1, 2, 5, 10 … that is no less. */

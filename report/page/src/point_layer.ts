@@ -1,4 +1,5 @@
 // Very many small squares, written pixel by pixel: tens of thousands a step are too many for a canvas's own calls.
+import { bytesOf } from "./colours";
 import type { Pose } from "./data";
 import type { SvgPen } from "./pen";
 
@@ -52,7 +53,8 @@ export class PointLayer implements PointSink {
 
   draw(points: PointRange, pose: Pose, size_m: number, least: number, colour: string): void {
     const { size, left, top } = squaresOf(points, pose, size_m, least, this.placement);
-    const paint = pixelOf(colour);
+    // In the byte order of the machine.
+    const [paint] = new Uint32Array(new Uint8Array(bytesOf(colour)).buffer);
     for (let i = points.begin; i < points.end; ++i) {
       if (points.isShown && !points.isShown(i)) continue;
       this.square(Math.round(left(i)), Math.round(top(i)), size, paint);
@@ -92,10 +94,4 @@ export class SvgPoints implements PointSink {
     }
     this.pen.squares(corners, size, colour);
   }
-}
-
-/** Of "#rrggbb", opaque, in the byte order of the machine. */
-function pixelOf(colour: string): number {
-  const bytes = new Uint8Array([1, 3, 5].map((i) => parseInt(colour.slice(i, i + 2), 16)).concat(255));
-  return new Uint32Array(bytes.buffer)[0];
 }
