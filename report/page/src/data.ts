@@ -1,6 +1,8 @@
 // What the program puts in the page. Lengths in m (points of maps and scans in whole mm), angles in rad, times
 // in ms unless a name says otherwise.
 
+export const metres = 1e-3; // of the whole mm in which points are given
+
 /** null where a step has no such value. */
 export type Column = (number | null)[];
 

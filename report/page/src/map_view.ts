@@ -1,6 +1,6 @@
 // The map with everything that happened on it: the only drawing that is our own.
 import { themeColour } from "./colours";
-import { frameAt, poseAt, type GlobalMap, type Grid, type Pose } from "./data";
+import { frameAt, metres, poseAt, type GlobalMap, type Grid, type Pose } from "./data";
 import { el, replace } from "./elements";
 import { boundingBox, compose, degrees, inverse, union, type Box } from "./geometry";
 import { saveMenu } from "./export";
@@ -16,7 +16,6 @@ import type { Store } from "./store";
 import { tellView, type Linked } from "./view_change";
 import { iconButton, zoomButtons } from "./zoom_buttons";
 
-const metres = 1e-3; // of the whole mm in which points are given
 const reach = 14; // px, of the pointer
 
 const nearby = 1.0; // m, of a place that was clicked

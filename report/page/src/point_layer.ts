@@ -1,6 +1,6 @@
 // Very many small squares, written pixel by pixel: tens of thousands a step are too many for a canvas's own calls.
 import { bytesOf } from "./colours";
-import type { Pose } from "./data";
+import { metres, type Pose } from "./data";
 import type { SvgPen } from "./pen";
 
 /** Where the map lies on the drawing, in its pixels: u = u0 + scale x, v = v0 - scale y. */
@@ -18,8 +18,6 @@ export interface PointRange {
   end: number;
   isShown?: (i: number) => boolean;
 }
-
-const metres = 1e-3;
 
 /** Takes points in a frame that lies at `pose` in the map, as squares of a side of `size_m`, at least `least` pixels. */
 export interface PointSink {

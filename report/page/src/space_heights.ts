@@ -1,10 +1,10 @@
 // The heights of a map in space: the colours they have, and the slider that hides what is above one.
 import { Color, Plane, Vector3 } from "three";
 import { ratingColour } from "./colours";
+import { metres } from "./data";
 import { el, replace } from "./elements";
 import { fixed } from "./numbers";
 
-const metres = 1e-3; // of the whole mm in which points are given
 const ceiling = { share: 0.15, from: 0.8, cut: 70 };
 
 /** Where nearly all values lie, m: a few stray points would make the rest small. */

@@ -13,8 +13,8 @@ import {
   type Plane,
   type Vector3,
 } from "three";
+import { metres } from "./data";
 
-const metres = 1e-3; // of the whole mm in which points are given
 const leastPoint = 1.6; // px
 
 /** In whole mm. */

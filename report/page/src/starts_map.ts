@@ -1,7 +1,7 @@
 // Where the trials of the chosen run began, and how they ended: each mark leads to its trial.
 import { ofRight } from "./answers";
 import { ratingColour, themeColour } from "./colours";
-import type { Outcome, Run, Trial } from "./data";
+import { metres, type Outcome, type Run, type Trial } from "./data";
 import { el, replace } from "./elements";
 import { saveMenu } from "./export";
 import { boundingBox, union, type Box } from "./geometry";
@@ -11,7 +11,6 @@ import type { Store } from "./store";
 import { svg } from "./svg";
 import { svgFile } from "./svg_file";
 
-const metres = 1e-3; // of the whole mm in which points are given
 const margin = 14; // px
 
 type Kind = Outcome | "running";

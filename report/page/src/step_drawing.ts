@@ -1,7 +1,7 @@
 // A step's poses on the map, and the ways that lead to them.
 import { opacityOf, thinnedOut } from "./candidates_shown";
 import { errorColour, ratingColour, themeColour, verdictColours } from "./colours";
-import { frameAt, poseAt, type MapChange, type Pose, type Steps } from "./data";
+import { frameAt, metres, poseAt, type MapChange, type Pose, type Steps } from "./data";
 import { fansOf } from "./field_of_view";
 import { compose } from "./geometry";
 import type { Screen } from "./map_background";
@@ -9,7 +9,6 @@ import type { Layer, TrajectoryColour } from "./map_legend";
 import { drawSegment, type Pen } from "./pen";
 import type { Selection, Store } from "./store";
 
-const metres = 1e-3; // of the whole mm in which points are given
 const triangle = { length: 15, width: 10 }; // px
 
 /** Robot pose in the map that the local map is laid under; null without any. */
