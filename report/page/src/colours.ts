@@ -24,12 +24,9 @@ export const verdictColours: Record<VerdictKind, string> = {
   unknown_place: "#cc79a7",
 };
 
-export const verdictNames: Record<VerdictKind, string> = {
-  searching: "searching",
-  ambiguous: "ambiguous",
-  localized: "localized",
-  unknown_place: "unknown place",
-};
+export function verdictName(kind: VerdictKind): string {
+  return kind.replace("_", " ");
+}
 
 // Eleven points of matplotlib's viridis, in between which it is all but linear.
 const viridis = [

@@ -1,6 +1,6 @@
 // The numbers of the chosen step, and its clusters.
 import { certificateNote } from "./certificate";
-import { ratingColour, verdictColours, verdictNames } from "./colours";
+import { ratingColour, verdictColours, verdictName } from "./colours";
 import { isInSpace, type Steps, type Trial } from "./data";
 import { DataTable, type Column } from "./data_table";
 import { append, el, replace, type Child } from "./elements";
@@ -109,7 +109,7 @@ function verdict(steps: Steps, step: number): HTMLElement {
   return el(
     "p",
     { class: "verdict" },
-    el("strong", { style: `border-color: ${verdictColours[kind]}` }, verdictNames[kind]),
+    el("strong", { style: `border-color: ${verdictColours[kind]}` }, verdictName(kind)),
     ` ${steps.sentences[steps.why[step]] ?? ""}`,
   );
 }

@@ -1,7 +1,7 @@
 // The page of glocal report and of glocal run --watch.
 import { rankRuns } from "./answers";
 import { Chunks } from "./chunks";
-import { verdictNames } from "./colours";
+import { verdictName } from "./colours";
 import { comparisonSection } from "./comparison";
 import { Curves } from "./curves";
 import type { Report, Run } from "./data";
@@ -158,7 +158,7 @@ function noteStep(store: Store): void {
   document.body.dataset.run = store.run.name;
   document.body.dataset.trial = String(store.trial?.trial ?? "");
   document.body.dataset.step = String(store.selected.step);
-  document.body.dataset.verdict = verdict ? verdictNames[verdict] : "";
+  document.body.dataset.verdict = verdict ? verdictName(verdict) : "";
 }
 
 startPage<Report>(show);

@@ -1,5 +1,5 @@
 // What the map shows, and the legend that switches it.
-import { errorColour, errorRange, ratingColour, verdictColours, verdictNames } from "./colours";
+import { errorColour, errorRange, ratingColour, verdictColours, verdictName } from "./colours";
 import type { VerdictKind } from "./data";
 import { el, replace } from "./elements";
 import { layerBox } from "./layer_box";
@@ -87,8 +87,8 @@ export class MapLegend implements Linked {
     const errorBar = el("span", { class: "bar", style: `background: linear-gradient(to right, ${errorStops})` });
     replace(this.errorScale, `error  ${least} m `, errorBar, ` ${most} m`);
     this.showErrorScale();
-    const verdicts = (Object.keys(verdictNames) as VerdictKind[]).map((kind) =>
-      el("span", {}, el("i", { class: "swatch", style: `background: ${verdictColours[kind]}` }), verdictNames[kind]),
+    const verdicts = (Object.keys(verdictColours) as VerdictKind[]).map((kind) =>
+      el("span", {}, el("i", { class: "swatch", style: `background: ${verdictColours[kind]}` }), verdictName(kind)),
     );
     return el(
       "figcaption",

@@ -1,12 +1,12 @@
 // What views of the map say in words: which step they show, and what the results do not hold, so that no drawing can show it.
-import { verdictNames } from "./colours";
+import { verdictName } from "./colours";
 import { frameAt } from "./data";
 import type { Store } from "./store";
 
 /** For those who cannot see the picture. */
 export function shownIn(picture: string, { steps, trial, selected: { step } }: Store): string {
   const verdict = steps?.verdict[step];
-  return steps && verdict ? `${picture} at step ${step} of trial ${trial?.trial}: ${verdictNames[verdict]}, ${steps.clusters[step]} clusters` : picture;
+  return steps && verdict ? `${picture} at step ${step} of trial ${trial?.trial}: ${verdictName(verdict)}, ${steps.clusters[step]} clusters` : picture;
 }
 
 /** In sentences. */

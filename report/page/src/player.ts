@@ -1,5 +1,5 @@
 // The slider over the steps, with play and keys.
-import { themeColour, verdictColours, verdictNames } from "./colours";
+import { themeColour, verdictColours, verdictName } from "./colours";
 import { el, replace } from "./elements";
 import type { MapView } from "./map_view";
 import type { FullScreen } from "./panes";
@@ -85,7 +85,7 @@ export class Player {
     const { steps } = this.store;
     this.slider.value = String(step);
     const verdict = steps?.verdict[step];
-    this.slider.setAttribute("aria-valuetext", verdict ? `step ${step}, ${verdictNames[verdict]}` : `step ${step}`);
+    this.slider.setAttribute("aria-valuetext", verdict ? `step ${step}, ${verdictName(verdict)}` : `step ${step}`);
     replace(this.told, verdict ? `step ${step} of ${this.store.lastStep}` : "no steps");
   }
 
