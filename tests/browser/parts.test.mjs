@@ -8,7 +8,7 @@ import { pathToFileURL } from "node:url";
 import { workFolder } from "./runs.mjs";
 
 const page = process.env.GLOCAL_PAGE_FOLDER; // as it was built
-let geometry, numbers, shares, shown, view, files, background, boxes, certificate, answers, svg, spacePoses, comparison, lost, board, store, missing;
+let geometry, numbers, shares, shown, view, files, boxes, certificate, answers, svg, spacePoses, comparison, lost, board, store, missing;
 
 before(async () => {
   const { build } = createRequire(join(page, "package.json"))("esbuild");
@@ -19,10 +19,10 @@ before(async () => {
     return import(pathToFileURL(outfile).href);
   };
   const names = [
-    "geometry", "numbers", "shares", "candidates_shown", "field_of_view", "export", "map_background",
+    "geometry", "numbers", "shares", "candidates_shown", "field_of_view", "export",
     "boxes", "certificate", "answers", "svg", "space_poses", "comparison", "board_lost", "board_data", "store", "missing",
   ];
-  [geometry, numbers, shares, shown, view, files, background, boxes, certificate, answers, svg, spacePoses, comparison, lost, board, store, missing] =
+  [geometry, numbers, shares, shown, view, files, boxes, certificate, answers, svg, spacePoses, comparison, lost, board, store, missing] =
     await Promise.all(names.map(load));
 });
 
@@ -100,7 +100,7 @@ test("a fan begins and ends at the robot where the laser does not see", () => {
 });
 
 test("lines of the map are 1, 2 or 5 of a power of ten apart", () => {
-  assert.deepEqual([0.03, 0.5, 1.01, 4, 7, 10, 11].map(background.roundStep), [0.05, 0.5, 2, 5, 10, 10, 20]);
+  assert.deepEqual([0.03, 0.5, 1.01, 4, 7, 10, 11].map(svg.roundStep), [0.05, 0.5, 2, 5, 10, 10, 20]);
 });
 
 test("cells of CSV files are quoted where they must be, and numbers are plain", () => {

@@ -4,6 +4,7 @@ import type { Grid } from "./data";
 import { el } from "./elements";
 import { significant } from "./numbers";
 import type { Pen } from "./pen";
+import { multiples, roundStep } from "./svg";
 
 const mostPixels = 4096; // of a picture's side; browsers have limits
 
@@ -74,26 +75,14 @@ export class SpacePicture {
   }
 }
 
-/** The least of 1, 2, 5, 10 … that is no less. */
-export function roundStep(least: number): number {
-  const power = 10 ** Math.floor(Math.log10(least));
-  return [1, 2, 5, 10].map((n) => n * power).find((step) => step >= least * (1 - 1e-9)) ?? 10 * power;
-}
-
 const closestLines = 70; // px
-
-function ticks(low: number, high: number, step: number): number[] {
-  const first = Math.ceil(low / step);
-  const count = Math.max(0, Math.floor(high / step) - first + 1);
-  return Array.from({ length: count }, (_, i) => (first + i) * step);
-}
 
 /** Where lines are, in m. */
 function linesOf({ x, y, scale, width, height }: Screen): { step: number; across: number[]; up: number[] } {
   const step = roundStep(closestLines / scale);
   const left = -x(0) / scale;
   const bottom = (y(0) - height) / scale;
-  return { step, across: ticks(left, left + width / scale, step), up: ticks(bottom, bottom + height / scale, step) };
+  return { step, across: multiples(step, left, left + width / scale), up: multiples(step, bottom, bottom + height / scale) };
 }
 
 export function drawGridLines(pen: Pen, screen: Screen): void {

@@ -11,15 +11,22 @@ export function svg<K extends keyof SVGElementTagNameMap>(
   return element;
 }
 
-/** Round numbers in [low, high], about so many. */
-export function ticks(low: number, high: number, about: number): number[] {
-  if (!(high > low)) return [low];
-  const rough = (high - low) / Math.max(about, 1);
-  const power = 10 ** Math.floor(Math.log10(rough));
-  const step = ([1, 2, 5, 10].find((n) => n * power >= rough) ?? 10) * power;
+/** The least of 1, 2, 5, 10 … that is no less. */
+export function roundStep(least: number): number {
+  const power = 10 ** Math.floor(Math.log10(least));
+  return [1, 2, 5, 10].map((n) => n * power).find((step) => step >= least * (1 - 1e-9)) ?? 10 * power;
+}
+
+/** Of a step, in [low, high]. */
+export function multiples(step: number, low: number, high: number): number[] {
   const from = Math.ceil(low / step - 1e-9);
   const to = Math.floor(high / step + 1e-9);
-  return Array.from({ length: to - from + 1 }, (_, i) => Number(((from + i) * step).toPrecision(12)));
+  return Array.from({ length: Math.max(0, to - from + 1) }, (_, i) => Number(((from + i) * step).toPrecision(12)));
+}
+
+/** Round numbers in [low, high], about so many. */
+export function ticks(low: number, high: number, about: number): number[] {
+  return high > low ? multiples(roundStep((high - low) / Math.max(about, 1)), low, high) : [low];
 }
 
 /** Whether values from low to high are told apart better that way. What rounding has left of nothing would stretch it over many powers of ten. */
