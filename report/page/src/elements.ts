@@ -34,6 +34,12 @@ export function section(id: string, title: string, ...children: Child[]): HTMLEl
   return el("section", { id, "aria-labelledby": `${id}-title` }, el("h2", { id: `${id}-title` }, title), ...children);
 }
 
+/** The colours of shares from 0 to 1, of which so many are told and the others lie in between. */
+export function colourBar(colourOf: (share: number) => string, told = 5): HTMLElement {
+  const colours = Array.from({ length: told }, (_, i) => colourOf(i / (told - 1)));
+  return el("span", { class: "bar", style: `background: linear-gradient(to right, ${colours.join(", ")})` });
+}
+
 /** More sentences than these are read by few. */
 const mostSentences = 8;
 

@@ -1,7 +1,7 @@
 // What the map shows, and the legend that switches it.
 import { errorColour, errorRange, ratingColour, verdictColours, verdictName } from "./colours";
 import type { VerdictKind } from "./data";
-import { el, replace } from "./elements";
+import { colourBar, el, replace } from "./elements";
 import { layerBox } from "./layer_box";
 import type { Linked } from "./view_change";
 import { explained } from "./words";
@@ -74,8 +74,6 @@ export class MapLegend implements Linked {
       this.boxes.set(layer, box);
       return label;
     };
-    const stops = [0, 0.25, 0.5, 0.75, 1].map(ratingColour).join(", ");
-    const bar = el("span", { class: "bar", style: `background: linear-gradient(to right, ${stops})` });
     const follow = el("input", { type: "checkbox", change: () => this.followed(follow.checked) });
     for (const [value, text] of Object.entries(trajectoryColours)) this.colourBy.append(el("option", { value }, text));
     this.colourBy.addEventListener("change", () => {
@@ -83,8 +81,7 @@ export class MapLegend implements Linked {
       this.changed();
     });
     const { least, most } = errorRange;
-    const errorStops = [0, 0.25, 0.5, 0.75, 1].map((share) => errorColour(least * (most / least) ** share)).join(", ");
-    const errorBar = el("span", { class: "bar", style: `background: linear-gradient(to right, ${errorStops})` });
+    const errorBar = colourBar((share) => errorColour(least * (most / least) ** share));
     replace(this.errorScale, `error  ${least} m `, errorBar, ` ${most} m`);
     this.showErrorScale();
     const verdicts = (Object.keys(verdictColours) as VerdictKind[]).map((kind) =>
@@ -94,7 +91,7 @@ export class MapLegend implements Linked {
       "figcaption",
       { class: "legend" },
       ...(Object.keys(layers) as Layer[]).map(entry),
-      el("span", { class: "scale" }, explained(el("span", {}, "rating r"), "r"), "  0 ", bar, " 1"),
+      el("span", { class: "scale" }, explained(el("span", {}, "rating r"), "r"), "  0 ", colourBar(ratingColour), " 1"),
       el("span", { class: "verdicts" }, explained(el("span", {}, "strip of verdicts"), "verdict"), ...verdicts),
       el("label", {}, "estimate by ", this.colourBy),
       el("label", {}, follow, "follow the robot"),

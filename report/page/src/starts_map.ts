@@ -2,7 +2,7 @@
 import { ofRight } from "./answers";
 import { ratingColour, themeColour } from "./colours";
 import { metres, type Outcome, type Run, type Trial } from "./data";
-import { el, replace } from "./elements";
+import { colourBar, el, replace } from "./elements";
 import { saveMenu } from "./export";
 import { boundingBox, union, type Box } from "./geometry";
 import { count, fixed } from "./numbers";
@@ -206,8 +206,7 @@ export class StartsMap {
       return [el("span", { class: "entry" }, sample, `${kind} ${count(n)}`)];
     });
     const most = this.mostSteps();
-    const stops = [0, 0.25, 0.5, 0.75, 1].map((share) => stepsColour(1 + share * (most - 1), most)).join(", ");
-    const bar = el("span", { class: "bar", style: `background: linear-gradient(to right, ${stops})` });
+    const bar = colourBar((share) => stepsColour(1 + share * (most - 1), most));
     const without = this.store.run.trials.length - this.starts.length;
     replace(
       this.legend,

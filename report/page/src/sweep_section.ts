@@ -2,7 +2,7 @@
 import { ratingColour } from "./colours";
 import type { ParameterEffect, Proportion, Report, Sweep, SweepMap } from "./data";
 import { DataTable, type Column } from "./data_table";
-import { el, list, section } from "./elements";
+import { colourBar, el, list, section } from "./elements";
 import { csvButtonOf, saveMenu } from "./export";
 import { count, fixed, percent, proportion } from "./numbers";
 import { parallelCoordinates } from "./parallel";
@@ -140,7 +140,6 @@ function heatMap(map: SweepMap): HTMLElement {
       fixed(100 * success.value, 0),
     );
   };
-  const stops = Array.from({ length: 11 }, (_, i) => ratingColour(i / 10)).join(", ");
   const title = `Right trials, %, by ${map.rows.label} and ${map.columns.label}`;
   const what = (): string => `${map.rows.label} and ${map.columns.label}`;
   return el(
@@ -166,6 +165,6 @@ function heatMap(map: SweepMap): HTMLElement {
         ),
       ),
     ),
-    el("p", { class: "legend" }, "0 % ", el("span", { class: "bar", style: `background: linear-gradient(to right, ${stops})` }), " 100 % right"),
+    el("p", { class: "legend" }, "0 % ", colourBar(ratingColour, 11), " 100 % right"),
   );
 }
