@@ -7,7 +7,7 @@ import { assertAccessibleInBoth } from "./accessible.mjs";
 import { assertTablesExplained } from "./meanings.mjs";
 import { assertQuiet, coloursAt, drawn, hashOf, mapView, moveSlider, open, painted, pixelsOf, skip, testsOn } from "./open.mjs";
 import { glocal, readPcd, report, runExperiment, stepsOf, trialsOf, workFolder } from "./runs.mjs";
-import { viridis } from "./viridis.mjs";
+import { viridisAt } from "./viridis.mjs";
 
 const canvas = ".space .stage canvas";
 
@@ -107,9 +107,7 @@ test("points have the colour of their height", { skip }, async () => {
     // Edges are blended, and the floor has gaps.
     if (colours[i][3] < 255) return;
     ++opaque;
-    const at = 10 * 0.86 * Math.min(Math.max((z - low) / (high - low), 0), 1);
-    const k = Math.min(Math.floor(at), 9);
-    const expected = viridis[k].map((from, c) => from + (at - k) * (viridis[k + 1][c] - from));
+    const expected = viridisAt(0.86 * Math.min(Math.max((z - low) / (high - low), 0), 1));
     if (expected.every((value, c) => Math.abs(value - colours[i][c]) <= 8)) ++same;
   });
   assert.ok(opaque > 1000 && same > 0.9 * opaque, `${same} of ${opaque}`);

@@ -1,6 +1,7 @@
 // Compares what a page shows of a step with the step's line in steps.jsonl.
 import assert from "node:assert/strict";
 import { colourAt, drawn, mapView, moveSlider, showOnly } from "./open.mjs";
+import { viridisAt } from "./viridis.mjs";
 
 const fact = (page, name) => page.locator(`.details dt:text-is("${name}") + dd`).innerText();
 const told = (page, curve) => page.locator(`[data-curve=${curve}] output`).innerText();
@@ -37,16 +38,10 @@ export async function checkNumbers(page, step) {
   assert.ok(rows >= Math.min(step.best.length, 10) && rows <= step.best.length, `${at}: ${rows} of ${step.best.length} clusters`);
 }
 
-/** Of a viridis at tenths, linear in between. */
-function expectedColour(viridis, r) {
-  const i = Math.min(Math.floor(r * 10), 9);
-  return viridis[i].map((low, k) => low + (r * 10 - i) * (viridis[i + 1][k] - low));
-}
-
 const distance = (a, b) => Math.hypot(a.x - b.x, a.y - b.y);
 
 /** Clusters that no other one lies on, or shares a cell of 16 px with: their colour is that of r, and pointing at them tells r̄. */
-export async function checkClusters(page, step, viridis, most = 5) {
+export async function checkClusters(page, step) {
   await showOnly(page, "clusters");
   const view = await mapView(page);
   const places = step.best.map((cluster) => view.toScreen(cluster.pose));
@@ -54,10 +49,10 @@ export async function checkClusters(page, step, viridis, most = 5) {
     at.x > view.box.left + 20 && at.x < view.box.left + view.box.width - 60 &&
     at.y > view.box.top + 20 && at.y < view.box.top + view.box.height - 50;
   const alone = places.map((at, i) => i).filter((i) => inside(places[i]) && places.every((other, k) => k === i || distance(other, places[i]) > 23));
-  for (const i of alone.slice(0, most)) {
+  for (const i of alone.slice(0, 5)) {
     const cluster = step.best[i];
     const [red, green, blue, opacity] = await colourAt(page, places[i]);
-    const expected = expectedColour(viridis, cluster.r);
+    const expected = viridisAt(cluster.r);
     const isWeak = cluster.r < 0.95 * step.best[0].r;
     // Weak ones are faint, and a faint colour is less exact.
     [red, green, blue].forEach((value, k) => assert.ok(Math.abs(value - expected[k]) <= (isWeak ? 8 : 3), `cluster ${i}: ${[red, green, blue]} for ${expected}`));
