@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { assertQuiet, colourAt, drawn, mapView, moveSlider, open, painted, showOnly, skip, testsOn } from "./open.mjs";
+import { assertQuiet, colourAt, drag, drawn, mapView, moveSlider, open, painted, showOnly, skip, testsOn } from "./open.mjs";
 import { readPcd, report, runExperiment, stepsOf, workFolder } from "./runs.mjs";
 
 /** In the page: counts what the browser has been asked for, and has not done yet. */
@@ -199,10 +199,7 @@ test("borders can be moved by pointer and keys", { skip }, async () => {
   const before = await stage();
   const upright = page.locator(".border.vertical");
   const box = await upright.boundingBox();
-  await page.mouse.move(box.x + box.width / 2, box.y + 100);
-  await page.mouse.down();
-  await page.mouse.move(box.x + box.width / 2 + 150, box.y + 100, { steps: 3 });
-  await page.mouse.up();
+  await drag(page, { x: box.x + box.width / 2, y: box.y + 100 }, 150, 0);
   const wider = await stage();
   assert.ok(Math.abs(wider.width - before.width - 150) < 20, `${before.width} to ${wider.width}`);
   await upright.focus();

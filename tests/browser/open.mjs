@@ -77,6 +77,15 @@ export async function moveSlider(page, step) {
   await drawn(page);
 }
 
+/** Drags by so many px with the left button. */
+export async function drag(page, { x, y }, right, down) {
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + right, y + down, { steps: 4 });
+  await page.mouse.up();
+  await drawn(page);
+}
+
 /** Whether the page keeps a key from the browser. */
 export function isTaken(page, key) {
   return page.evaluate((key) => !document.body.dispatchEvent(new KeyboardEvent("keydown", { ...key, bubbles: true, cancelable: true })), key);

@@ -5,7 +5,7 @@ import { join } from "node:path";
 import { test } from "node:test";
 import { assertAccessibleInBoth } from "./accessible.mjs";
 import { assertTablesExplained } from "./meanings.mjs";
-import { assertQuiet, coloursAt, drawn, hashOf, mapView, moveSlider, open, painted, pixelsOf, skip, testsOn } from "./open.mjs";
+import { assertQuiet, coloursAt, drag, drawn, hashOf, mapView, moveSlider, open, painted, pixelsOf, skip, testsOn } from "./open.mjs";
 import { glocal, readPcd, report, runExperiment, stepsOf, trialsOf, workFolder } from "./runs.mjs";
 import { viridisAt } from "./viridis.mjs";
 
@@ -145,11 +145,7 @@ test("in space the view turns by dragging, and heights can be cut", { skip }, as
   const [before, all] = [await picture(), await highPixels()];
   assert.ok(all > 3000, `${all} pixels`);
   const box = await page.locator(canvas).boundingBox();
-  await page.mouse.move(box.x + 200, box.y + 200);
-  await page.mouse.down();
-  await page.mouse.move(box.x + 300, box.y + 240, { steps: 4 });
-  await page.mouse.up();
-  await drawn(page);
+  await drag(page, { x: box.x + 200, y: box.y + 200 }, 100, 40);
   assert.notEqual(await picture(), before);
   await page.keyboard.press("0");
   await drawn(page);
@@ -227,10 +223,7 @@ test("a link leads to what is seen, and from where", { skip }, async () => {
     await page.locator("input[data-space-layer=scan]").setChecked(view === "above");
     await page.locator(".cut input").fill(view === "above" ? "100" : "55");
     const box = await page.locator(canvas).boundingBox();
-    await page.mouse.move(box.x + 200, box.y + 200);
-    await page.mouse.down();
-    await page.mouse.move(box.x + 260, box.y + 230, { steps: 3 });
-    await page.mouse.up();
+    await drag(page, { x: box.x + 200, y: box.y + 200 }, 60, 30);
     await page.mouse.move(box.x + box.width / 2, box.y + 5);
     await drawn(page);
     const hash = await hashOf(page);
