@@ -4,7 +4,7 @@ import { cpSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { assertTablesExplained } from "./meanings.mjs";
-import { assertQuiet, drawn, hashOf, mapView, moveSlider, open, pixelsOf, skip, testsOn } from "./open.mjs";
+import { assertQuiet, drawn, hashOf, mapView, moveSlider, open, pixelsOf, skip, testsOn, themed } from "./open.mjs";
 import { report, runExperiment, stepsOf, trialsOf, workFolder } from "./runs.mjs";
 import { cellsOf, countColours, saved, seen } from "./saved.mjs";
 import { checkNumbers } from "./steps_check.mjs";
@@ -164,15 +164,10 @@ test("the map is saved as SVG and PNG, as it is shown", { skip }, async () => {
   assert.deepEqual([drawing.width, drawing.height], [Math.round(box.width), Math.round(box.height)]);
   const picture = await seen(page, png.content, "image/png");
   assert.deepEqual([picture.width, picture.height], [2 * drawing.width, 2 * drawing.height]);
-  const colour = (name) =>
-    page.evaluate((name) => {
-      const hex = getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
-      return [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16)).join(",");
-    }, name);
   // Walls and the local map cover as much as on the page, twice as long and wide.
   const onPage = countColours(await pixelsOf(page, ".stage canvas"));
   for (const name of ["wall", "local-map"]) {
-    const key = await colour(name);
+    const key = (await themed(page, name)).join(",");
     assert.ok(onPage[key] > 50, `${name}: ${onPage[key]}`);
     assert.ok(picture.colours[key] > 2 * onPage[key], `${name}: ${picture.colours[key]} for ${onPage[key]}`);
   }

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { assertQuiet, colourAt, drag, drawn, mapView, moveSlider, open, painted, showOnly, skip, testsOn } from "./open.mjs";
+import { assertQuiet, colourAt, drag, drawn, mapView, moveSlider, open, painted, showOnly, skip, testsOn, themed } from "./open.mjs";
 import { readPcd, report, runExperiment, stepsOf, workFolder } from "./runs.mjs";
 
 /** In the page: counts what the browser has been asked for, and has not done yet. */
@@ -31,12 +31,6 @@ testsOn(async () => {
   return opened;
 });
 
-/** A colour of the style sheet: red, green, blue. */
-async function themed(name) {
-  const hex = await page.evaluate((name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim(), name);
-  return [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16));
-}
-
 test("free, occupied and unknown cells are shaded as the run's grid has them", { skip }, async () => {
   const { resolution, origin, width, height, cells } = JSON.parse(readFileSync(join(folder, "maps/global_grid.json"), "utf8"));
   assert.equal(origin.theta, 0);
@@ -44,7 +38,7 @@ test("free, occupied and unknown cells are shaded as the run's grid has them", {
   assert.equal(kinds.length, width * height);
   await showOnly(page, "space");
   const view = await mapView(page);
-  const colours = { f: await themed("free"), u: await themed("unknown") };
+  const colours = { f: await themed(page, "free"), u: await themed(page, "unknown") };
   const checked = { f: 0, u: 0 };
   for (let row = 4; row < height - 4; row += 37) {
     for (let column = 4; column < width - 4; column += 41) {

@@ -171,6 +171,12 @@ export async function coloursAt(page, places, canvas = plan) {
   return places.map(await drawing(page, canvas));
 }
 
+/** A colour of the page's style sheet: red, green, blue. */
+export async function themed(page, name) {
+  const hex = await page.evaluate((name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim(), name);
+  return [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16));
+}
+
 /** What is drawn: all layers but these are switched off. */
 export async function showOnly(page, ...layers) {
   for (const box of await page.locator("input[data-layer]").all()) {
