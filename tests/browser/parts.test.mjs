@@ -1,30 +1,15 @@
 // The page's arithmetic, by hand.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { createRequire } from "node:module";
-import { join } from "node:path";
-import { before, test } from "node:test";
-import { pathToFileURL } from "node:url";
-import { workFolder } from "./runs.mjs";
+import { test } from "node:test";
+import { pageModule } from "./page_module.mjs";
 
-const page = process.env.GLOCAL_PAGE_FOLDER; // as it was built
-let geometry, numbers, shares, shown, view, files, boxes, certificate, answers, svg, spacePoses, comparison, lost, board, store, missing;
-
-before(async () => {
-  const { build } = createRequire(join(page, "package.json"))("esbuild");
-  const folder = workFolder();
-  const load = async (name) => {
-    const outfile = join(folder, `${name}.mjs`);
-    await build({ entryPoints: [join(page, "src", `${name}.ts`)], bundle: true, format: "esm", outfile, logLevel: "error" });
-    return import(pathToFileURL(outfile).href);
-  };
-  const names = [
-    "geometry", "numbers", "shares", "candidates_shown", "field_of_view", "export",
-    "boxes", "certificate", "answers", "svg", "space_poses", "comparison", "board_lost", "board_data", "store", "missing",
-  ];
-  [geometry, numbers, shares, shown, view, files, boxes, certificate, answers, svg, spacePoses, comparison, lost, board, store, missing] =
-    await Promise.all(names.map(load));
-});
+const names = [
+  "geometry", "numbers", "shares", "candidates_shown", "field_of_view", "export",
+  "boxes", "certificate", "answers", "svg", "space_poses", "comparison", "board_lost", "board_data", "store", "missing",
+];
+const [geometry, numbers, shares, shown, view, files, boxes, certificate, answers, svg, spacePoses, comparison, lost, board, store, missing] =
+  await Promise.all(names.map(pageModule));
 
 const near = (a, b) => assert.ok(Math.hypot(a.x - b.x, a.y - b.y, a.theta - b.theta) < 1e-12, JSON.stringify([a, b]));
 

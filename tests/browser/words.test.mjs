@@ -1,12 +1,11 @@
 // What words and symbols mean, and the layout of trials of one step.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { createRequire } from "node:module";
 import { join } from "node:path";
 import { test } from "node:test";
-import { pathToFileURL } from "node:url";
 import { assertTablesExplained } from "./meanings.mjs";
 import { assertQuiet, moveSlider, open, painted, mapView, showOnly, skip, testsOn } from "./open.mjs";
+import { pageModule } from "./page_module.mjs";
 import { report, runExperiment, stepsOf, workFolder } from "./runs.mjs";
 
 const work = workFolder();
@@ -18,11 +17,7 @@ testsOn(async () => {
 });
 
 test("words mean what the glossary says", async () => {
-  const pageFolder = process.env.GLOCAL_PAGE_FOLDER;
-  const outfile = join(work, "words.mjs");
-  const { build } = createRequire(join(pageFolder, "package.json"))("esbuild");
-  await build({ entryPoints: [join(pageFolder, "src/words.ts")], bundle: true, format: "esm", outfile, logLevel: "error" });
-  const { ofGlossary } = await import(pathToFileURL(outfile).href);
+  const { ofGlossary } = await pageModule("words");
   const glossary = readFileSync(join(process.env.GLOCAL_SOURCE_DIR, "docs/glossary.md"), "utf8").replace(/[*`\\]/g, "");
   assert.ok(Object.keys(ofGlossary).length > 20);
   for (const [word, text] of Object.entries(ofGlossary)) assert.ok(glossary.includes(text), `${word}: ${text}`);
