@@ -155,7 +155,7 @@ export class Curves {
 export function lineSample(i: number): SVGElement {
   const line = svg("line", { x1: 0, y1: 5, x2: 26, y2: 5, "stroke-width": 2.5, "stroke-dasharray": runLine(i).dash.join(" ") });
   line.style.stroke = runColour(i);
-  return svg("svg", { width: 26, height: 10, "aria-hidden": "true", class: "sample" }, line);
+  return svg("svg", { width: 26, height: 10, "aria-hidden": "true" }, line);
 }
 
 class Panel {
