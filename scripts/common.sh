@@ -7,6 +7,16 @@ if [ -z "${GLOCAL_DATASETS:-}" ] && [ -d ../shared/datasets ]; then
   export GLOCAL_DATASETS
 fi
 
+# What --help prints: how the script begins.
+usage() { sed -n '2,/^[^#]/{/^#/s/^# \{0,1\}//p}' "scripts/${0##*/}"; }
+refuse() { echo "scripts/${0##*/}: $1" >&2; exit 2; }
+
+# cmake_build PRESET [--target TARGET…]
+cmake_build() {
+  cmake --preset "$1" >/dev/null
+  cmake --build --preset "$@"
+}
+
 # From here on temporary files are in memory, where that has room, until the script ends: results are synced to their disk trial by trial.
 keep_temporary_files_in_memory() {
   local memory=/dev/shm
