@@ -32,7 +32,7 @@ export interface Answer extends Group {
 
 /** Whether all of them are parts of experiments with variants, cases or seeds, no two are the same one, and those of a setting have one localizer. */
 function areParts(runs: Run[]): boolean {
-  const parts = new Set(runs.map((run) => partKey(run)));
+  const parts = new Set(runs.map(partKey));
   const methods = new Map<string, string>();
   const isSameMethod = (run: Run): boolean => {
     const key = JSON.stringify([experimentOf(run), run.provenance?.variant?.setting]);

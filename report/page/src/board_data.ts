@@ -80,8 +80,8 @@ export interface Asked {
   by: string;
 }
 
-export function linkTo({ suite, method, case: one = "", by = "" }: Partial<Asked>): string {
-  return `#${new URLSearchParams({ suite: suite ?? "", method: method ?? "", case: one, by })}`;
+export function linkTo(asked: Partial<Asked>): string {
+  return `#${new URLSearchParams({ suite: "", method: "", case: "", by: "", ...asked })}`;
 }
 
 export function askedIn(address: string): Asked | null {

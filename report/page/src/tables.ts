@@ -76,10 +76,7 @@ function namesOf(some: Run[], all: Run[]): string {
     const whole = groups.filter((group) => group.runs.every((run) => chosen.has(run)));
     return whole.reduce((n, group) => n + group.runs.length, 0) === some.length ? whole.map(({ name }) => name) : null;
   };
-  const [shortest] = groupingsOf(all).flatMap((groups) => {
-    const told = names(groups);
-    return told ? [told] : [];
-  }).sort((a, b) => a.length - b.length);
+  const [shortest] = groupingsOf(all).map(names).filter((told) => told !== null).sort((a, b) => a.length - b.length);
   const told = shortest.slice(0, mostNames).join(", ");
   return shortest.length <= mostNames ? told : `${told} and ${shortest.length - mostNames} more`;
 }
