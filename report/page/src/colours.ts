@@ -50,6 +50,11 @@ export function ratingColour(r: number): string {
   return mixed(viridis, r);
 }
 
+/** Black or white, whichever is read more easily on the colour of a rating: viridis is dark below the middle. */
+export function inkOn(r: number): string {
+  return r > 0.43 ? "#000000" : "#ffffff";
+}
+
 /** m; smaller and larger errors look the same as these. */
 export const errorRange = { least: 0.01, most: 10 };
 

@@ -1,5 +1,5 @@
 // What a sweep has taught: its best settings, what each parameter does, and two of them in a map.
-import { ratingColour } from "./colours";
+import { inkOn, ratingColour } from "./colours";
 import type { ParameterEffect, Proportion, Report, Sweep, SweepMap } from "./data";
 import { DataTable, type Column } from "./data_table";
 import { colourBar, el, list, section } from "./elements";
@@ -118,9 +118,6 @@ function effectChart(effect: ParameterEffect): HTMLElement {
   );
 }
 
-/** Black or white, whichever is read more easily on the colour of a share: viridis is dark below the middle. */
-const inkOn = (share: number): string => (share > 0.43 ? "#000000" : "#ffffff");
-
 /** Percent of right trials, and nothing where there is no such setting. */
 function heatRows({ rows, columns, cells }: SweepMap): string[][] {
   const number = ({ trials, success_rate: { value } }: SweepMap["cells"][0][0]): string => (trials > 0 ? String(100 * value) : "");
@@ -145,7 +142,7 @@ function heatMap(map: SweepMap): HTMLElement {
   return el(
     "figure",
     { class: "heat" },
-    el("figcaption", {}, title, saveMenu(what, () => heatSvg(map, title, inkOn)), csvButtonOf(what, () => heatRows(map))),
+    el("figcaption", {}, title, saveMenu(what, () => heatSvg(map, title)), csvButtonOf(what, () => heatRows(map))),
     el(
       "div",
       { class: "scroll", tabindex: 0 },

@@ -1,5 +1,5 @@
 // What a sweep has taught, as files: effects of parameters, and the map of two of them.
-import { ratingColour, themeColour } from "./colours";
+import { inkOn, ratingColour, themeColour } from "./colours";
 import type { ParameterEffect, SweepMap } from "./data";
 import { fixed, percent } from "./numbers";
 import { drawSegment, SvgPen } from "./pen";
@@ -57,8 +57,8 @@ export function effectSvg({ levels }: ParameterEffect, title: string): string {
   return pen.file(title, themeColour("paper"));
 }
 
-/** A cell for each pair of levels, in the colour of its share; `inkOn` is what is read on that. */
-export function heatSvg({ rows, columns, cells }: SweepMap, title: string, inkOn: (share: number) => string): string {
+/** A cell for each pair of levels, in the colour of its share. */
+export function heatSvg({ rows, columns, cells }: SweepMap, title: string): string {
   const left = margin + widthOf([...rows.levels, rows.label]) + 16;
   const side = Math.max(64, widthOf(columns.levels) + 12);
   const top = titleHeight + 2 * row;
