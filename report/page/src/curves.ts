@@ -13,7 +13,7 @@ import { explained } from "./words";
 interface Curve {
   id: string;
   title: string;
-  unit: string;
+  unit?: string;
   /** What the axis says. */
   axis: string;
   values: (steps: Steps) => Column;
@@ -36,18 +36,17 @@ const curves: Curve[] = [
   {
     id: "omega_best",
     title: "Best quality Ω",
-    unit: "",
     axis: "share of points",
     values: (s) => s.omega_best,
     second: { name: "score", values: scoreWhereOther },
     range: share,
     log: false,
   },
-  { id: "omega_max", title: "Threshold Ω max", unit: "", axis: "share of points", values: (s) => s.omega_max, range: share, log: false },
-  { id: "omega_place", title: "Known place Ω′", unit: "", axis: "share of points", values: (s) => s.omega_place, range: share, log: false },
+  { id: "omega_max", title: "Threshold Ω max", axis: "share of points", values: (s) => s.omega_max, range: share, log: false },
+  { id: "omega_place", title: "Known place Ω′", axis: "share of points", values: (s) => s.omega_place, range: share, log: false },
   { id: "translation", title: "Error of translation", unit: "m", axis: "error, m", values: (s) => s.translation_error_m, log: true },
   { id: "rotation", title: "Error of rotation", unit: "°", axis: "error, °", values: (s) => s.rotation_error_deg, log: true },
-  { id: "clusters", title: "Clusters", unit: "", axis: "clusters", whole: true, values: (s) => s.clusters, log: true },
+  { id: "clusters", title: "Clusters", axis: "clusters", whole: true, values: (s) => s.clusters, log: true },
 ];
 
 /** A run's trial that starts where the chosen one does, and whether its curves are drawn. */
@@ -221,11 +220,11 @@ class Panel {
     const { steps } = this.store;
     const { step } = this.store.selected;
     const number = this.curve.whole ? count : significant;
-    const told = (values: Column, unit: string): string => `${number(values[step])}${unit && ` ${unit}`}`;
+    const told = (values: Column, unit = ""): string => `${number(values[step])}${unit && ` ${unit}`}`;
     const texts = steps && steps.step.length > 0 ? [told(this.curve.values(steps), this.curve.unit)] : [];
     const { second } = this.curve;
     const values = steps && second?.values(steps);
-    if (texts.length > 0 && values?.[step] != null) texts.push(`${second?.name} (dashed) ${told(values, "")}`);
+    if (texts.length > 0 && values?.[step] != null) texts.push(`${second?.name} (dashed) ${told(values)}`);
     replace(this.value, texts.join(", "));
     this.placeCursor();
   }
