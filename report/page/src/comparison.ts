@@ -32,7 +32,7 @@ interface Row {
   isSignificant: boolean;
 }
 
-export interface Read {
+interface Read {
   baseline: string;
   /** That all share, and at how many places. */
   starts?: number;

@@ -16,7 +16,7 @@ export interface Column<Row> {
   kind?: (row: Row) => string;
 }
 
-export interface TableOptions {
+interface TableOptions {
   /** So many columns are always shown. */
   keys: number;
   /** More rows are shown when they are asked for; without it all are. */

@@ -8,7 +8,7 @@ function slug(text: string): string {
 }
 
 /** Tells what is shown where `of` stands on the page: the run, and of single steps the trial and the step. */
-export function fileName(of: Element, what: string, ending: string): string {
+function fileName(of: Element, what: string, ending: string): string {
   const { run, trial, step } = document.body.dataset;
   const parts: (string | undefined)[] = [];
   if (of.closest("#view, #trials")) parts.push(run && slug(run));

@@ -2,7 +2,7 @@
 
 const widestGap = (10 * Math.PI) / 180; // between rays; a wider one is not seen
 
-export interface Point {
+interface Point {
   x: number;
   y: number;
 }

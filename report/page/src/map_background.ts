@@ -9,7 +9,7 @@ import { multiples, roundStep } from "./svg";
 const mostPixels = 4096; // of a picture's side; browsers have limits
 
 /** From cells to the screen, as canvases and SVG write it. */
-export type Matrix = [number, number, number, number, number, number];
+type Matrix = [number, number, number, number, number, number];
 
 /** Where the map lies on the screen. */
 export interface Screen {

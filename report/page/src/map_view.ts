@@ -105,7 +105,6 @@ export class MapView implements Linked {
     this.hasMoved();
   }
 
-  /** What a link to this view says of it. */
   state(): Record<string, string> {
     const { x, y, scale } = this.view;
     return {

@@ -5,7 +5,7 @@ export type Pen = Pick<CanvasRenderingContext2D, keyof SvgPen & keyof CanvasRend
 
 const namespace = "http://www.w3.org/2000/svg";
 
-export function inMarkup(text: string): string {
+function inMarkup(text: string): string {
   return text.replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/>/g, "&gt;").replace(/"/g, "&quot;");
 }
 

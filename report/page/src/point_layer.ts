@@ -11,7 +11,7 @@ export interface Placement {
 }
 
 /** Points in whole mm, of which [begin, end) are meant, and of these only those that `isShown` wants. */
-export interface PointRange {
+interface PointRange {
   x: number[];
   y: number[];
   begin: number;

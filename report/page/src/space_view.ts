@@ -14,7 +14,7 @@ import { Heights, rangeOf } from "./space_heights";
 import { placesOf, PointCloud, Way, type Coordinates } from "./space_points";
 import { candidatePose, columnPose, type SpacePose } from "./space_poses";
 import type { Store } from "./store";
-import { tellView } from "./view_change";
+import { tellView, type Linked } from "./view_change";
 import { zoomButtons } from "./zoom_buttons";
 
 const reach = 14; // px, of the pointer
@@ -58,7 +58,7 @@ function indices(begin: number, end: number): number[] {
   return Array.from({ length: end - begin }, (_, i) => begin + i);
 }
 
-export class SpaceView {
+export class SpaceView implements Linked {
   readonly element: HTMLElement;
   private readonly canvas = el("canvas", { tabindex: 0, role: "img" });
   private readonly stage = el("div", { class: "stage" });
@@ -147,7 +147,6 @@ export class SpaceView {
     this.hasChanged();
   }
 
-  /** What a link to this view says of it. */
   state(): Record<string, string> {
     const eye = this.cameras.state(this.centre);
     const hidden = [...this.boxes].filter(([, box]) => !box.checked).map(([layer]) => layer);

@@ -27,7 +27,7 @@ export interface Change {
 type Listener = (change: Change) => void;
 
 /** What is to be shown; without a step that which the trial opens at. */
-export type Wanted = Omit<Selection, "step"> & { step: number | undefined };
+type Wanted = Omit<Selection, "step"> & { step: number | undefined };
 
 const nothing: Change = { run: false, trial: false, step: false, hypothesis: false, shown: false };
 const everything: Change = { run: true, trial: true, step: true, hypothesis: true, shown: true };

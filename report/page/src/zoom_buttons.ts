@@ -1,7 +1,7 @@
 // The buttons that zoom a view of the map.
 import { el } from "./elements";
 
-export interface Zoomable {
+interface Zoomable {
   zoom(factor: number): void;
   fit(): void;
 }
