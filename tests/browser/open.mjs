@@ -69,13 +69,15 @@ export function testsOn(setUp, skipped = skip) {
   });
 }
 
-export async function moveSlider(page, step) {
-  await page.locator(".player input[type=range]").evaluate((slider, value) => {
+export async function slide(page, slider, value) {
+  await page.locator(slider).evaluate((slider, value) => {
     slider.value = String(value);
     slider.dispatchEvent(new Event("input", { bubbles: true }));
-  }, step);
+  }, value);
   await drawn(page);
 }
+
+export const moveSlider = (page, step) => slide(page, ".player input[type=range]", step);
 
 /** Drags by so many px with the left button. */
 export async function drag(page, { x, y }, right, down) {

@@ -5,7 +5,7 @@ import { join } from "node:path";
 import { test } from "node:test";
 import { assertAccessibleInBoth } from "./accessible.mjs";
 import { assertTablesExplained } from "./meanings.mjs";
-import { assertQuiet, coloursAt, drag, drawn, hashOf, mapView, moveSlider, open, painted, pixelsOf, skip, testsOn } from "./open.mjs";
+import { assertQuiet, coloursAt, drag, drawn, hashOf, mapView, moveSlider, open, painted, pixelsOf, skip, slide, testsOn } from "./open.mjs";
 import { glocal, readPcd, report, runExperiment, stepsOf, trialsOf, workFolder } from "./runs.mjs";
 import { viridisAt } from "./viridis.mjs";
 
@@ -36,13 +36,8 @@ async function look(view) {
   await drawn(page);
 }
 
-async function showAllHeights() {
-  await page.locator(".cut input").evaluate((slider) => {
-    slider.value = slider.max;
-    slider.dispatchEvent(new Event("input"));
-  });
-  await drawn(page);
-}
+/** Up to so many percent of them. */
+const showHeights = (percent) => slide(page, ".cut input", percent);
 
 /** The share of places, of those inside the view, that are painted. */
 async function share(places) {
@@ -76,7 +71,7 @@ test("only reports of runs in space carry what draws them", { skip }, () => {
 
 test("seen from above, each point of the map is where it belongs", { skip }, async () => {
   await look("above");
-  await showAllHeights();
+  await showHeights(100);
   await showOnly("map");
   const map = pointsOf(join(folder, "maps", "global.pcd"));
   const drawnThere = await share(map);
@@ -88,7 +83,7 @@ test("seen from above, each point of the map is where it belongs", { skip }, asy
 
 test("points have the colour of their height", { skip }, async () => {
   await look("above");
-  await showAllHeights();
+  await showHeights(100);
   await showOnly("map");
   const map = pointsOf(join(folder, "maps", "global.pcd"));
   const heights = map.map(([, , z]) => z).sort((a, b) => a - b);
@@ -117,7 +112,7 @@ test("local map and scan lie under the estimate, and arrows at their poses", { s
   const k = steps.length - 1;
   const { estimate, reference, local_from_robot: local } = steps[k];
   await look("above");
-  await showAllHeights();
+  await showHeights(100);
   await moveSlider(page, k);
   const recorded = (kind) => pointsOf(join(folder, "maps", "trial_0000", `${kind}_${String(k).padStart(4, "0")}.pcd`));
   await showOnly("local_map");
@@ -137,7 +132,7 @@ test("local map and scan lie under the estimate, and arrows at their poses", { s
 
 test("in space the view turns by dragging, and heights can be cut", { skip }, async () => {
   await look("orbit");
-  await showAllHeights();
+  await showHeights(100);
   await showOnly("map");
   const picture = () => page.locator(canvas).evaluate((element) => element.toDataURL());
   /** Of the colours that high points have: viridis is green from its middle on. */
@@ -150,24 +145,20 @@ test("in space the view turns by dragging, and heights can be cut", { skip }, as
   await page.keyboard.press("0");
   await drawn(page);
   assert.equal(await picture(), before);
-  await page.locator(".cut input").evaluate((slider) => {
-    slider.value = slider.min;
-    slider.dispatchEvent(new Event("input"));
-  });
-  await drawn(page);
+  await showHeights(0);
   assert.ok((await highPixels()) < 0.05 * all);
 });
 
 test("the slider of heights has its keys for itself", { skip }, async () => {
   await moveSlider(page, 1);
-  await showAllHeights();
+  await showHeights(100);
   await page.locator(".cut input").focus();
   await page.keyboard.press("ArrowLeft");
   assert.equal(await page.locator(".cut input").inputValue(), "99");
   await page.keyboard.press("Home");
   assert.equal(await page.locator(".cut input").inputValue(), "0");
   assert.equal(await page.evaluate(() => document.body.dataset.step), "1");
-  await showAllHeights();
+  await showHeights(100);
 });
 
 test("a page without steps says so in space", { skip }, async () => {
@@ -189,7 +180,7 @@ test("a step shows the map as a new drawing of it does, wherever it is seen from
   const median = (values) => values.sort((a, b) => a - b)[values.length >> 1];
   for (const view of ["orbit", "above"]) {
     await look(view);
-    await showAllHeights();
+    await showHeights(100);
     for (const other of await page.locator("input[data-space-layer]").all()) await other.check();
     await page.keyboard.press("+");
     await drawn(page);
