@@ -31,7 +31,7 @@ std::size_t keep_best(BestOfCells& places, std::size_t most) {
   std::vector<std::size_t> in_contact;
   for (const auto& [cell, box] : places) in_contact.push_back(box.at_middle);
   const auto last = in_contact.begin() + static_cast<std::ptrdiff_t>(most) - 1;
-  std::nth_element(in_contact.begin(), last, in_contact.end(), std::greater<>());
+  std::ranges::nth_element(in_contact, last, std::greater<>());
   std::erase_if(places, [&](const auto& entry) { return entry.second.at_middle < *last; });
   return *last;
 }

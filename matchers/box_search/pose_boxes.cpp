@@ -65,9 +65,9 @@ std::vector<CellPoints> PoseGrid::cells(int level, std::size_t rotation) const {
 Translations PoseGrid::translations(const std::vector<CellPoints>& cells, std::size_t /*least*/) const {
   const auto columns = cells.front().columns();
   const auto rows = cells.front().rows();
-  const auto [left, right] = std::minmax_element(columns.begin(), columns.end());
-  const auto [low, high] = std::minmax_element(rows.begin(), rows.end());
-  Translations all{-*right, frame().columns - 1 - *left, -*high, frame().rows - 1 - *low};
+  const auto [left, right] = std::ranges::minmax(columns);
+  const auto [low, high] = std::ranges::minmax(rows);
+  Translations all{-right, frame().columns - 1 - left, -high, frame().rows - 1 - low};
   if (frame().in_space) {
     const double height = robot_height_ / frame().cell;
     all.first_layer = static_cast<int>(std::ceil(-height));
@@ -106,7 +106,7 @@ TiltSquares AllPoses::largest_tilts() const {
   const double box = std::ldexp(frame().cell, top_level_);
   const double rise = frame().cell * AllPoses::rise(top_level_, Motion::free);
   return TiltSquares([&](double reach) {
-    return std::all_of(points_.begin(), points_.end(), [&](const Turning& point) {
+    return std::ranges::all_of(points_, [&](const Turning& point) {
       const double height =
           std::abs(point.layer) * frame().cell + TiltSquares::largest(reach) * point.distance;
       return 2.0 * TiltSquares::aside(reach, height, point.distance) < box && reach * point.distance < rise;
@@ -303,8 +303,8 @@ Translations AllPoses::translations(const std::vector<CellPoints>& cells, std::s
       }
     }
     const auto nth = static_cast<std::ptrdiff_t>(least - 1);
-    std::nth_element(first.begin(), first.begin() + nth, first.end());
-    std::nth_element(last.begin(), last.begin() + nth, last.end(), std::greater<>());
+    std::ranges::nth_element(first, first.begin() + nth);
+    std::ranges::nth_element(last, last.begin() + nth, std::greater<>());
     return {first[least - 1], last[least - 1]};
   };
   const int first_window = 1 - (1 << top_level_);

@@ -85,11 +85,8 @@ LayerCells cells_in_contact(const Points& map_points, const CellFrame& frame, co
   for_bands(threads, frame.rows, 1,
             [&](int begin, int end) { mark_contact(map_points, frame, rule, begin, end, cells); });
   for (int row = 0; row < frame.rows; ++row) {
-    const auto begin =
-        cells.bits.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(row) * words);
-    if (std::all_of(begin, begin + static_cast<std::ptrdiff_t>(words),
-                    [](std::uint64_t w) { return w == 0; }))
-      continue;
+    const auto of_row = std::span(cells.bits).subspan(static_cast<std::size_t>(row) * words, words);
+    if (std::ranges::all_of(of_row, [](std::uint64_t w) { return w == 0; })) continue;
     cells.first_row = std::min(cells.first_row, row);
     cells.end_row = row + 1;
   }
@@ -138,7 +135,7 @@ class WindowRows {
     std::vector<std::uint64_t> windows(last_.front().size());
     for (int row = begin; row < end + behind_ + ahead_ - 1; ++row) {
       take_in(row, row < end);
-      std::fill(windows.begin(), windows.end(), 0);
+      std::ranges::fill(windows, 0);
       for (const std::vector<std::uint64_t>& last : last_) {
         for (std::size_t w = 0; w < windows.size(); ++w) windows[w] |= last[w];
       }
@@ -151,7 +148,7 @@ class WindowRows {
   /// A row of cells: the columns of windows that meet one in contact, in place of the oldest row.
   void take_in(int row, bool is_any) {
     std::vector<std::uint64_t>& columns = last_[static_cast<std::size_t>(row) % last_.size()];
-    std::fill(columns.begin(), columns.end(), 0);
+    std::ranges::fill(columns, 0);
     if (!is_any) return;
     // A window begins so many columns before the first that it can meet.
     const std::size_t first = columns_before_ + 1 - static_cast<std::size_t>(ahead_);

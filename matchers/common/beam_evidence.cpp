@@ -70,7 +70,7 @@ double BeamEvidence::blocked_share(const ClearanceGrid& grid, const Pose2& map_f
   std::vector<std::uint8_t> are_blocked;
   for (const Beams& beams : scans_) {
     grid.find_blocked(transform(beams.origin), beams.ends, transform, rule_.margin, are_blocked);
-    blocked += static_cast<double>(std::count(are_blocked.begin(), are_blocked.end(), 1));
+    blocked += static_cast<double>(std::ranges::count(are_blocked, 1));
     // One beam more, so that no rounding brings the answer back to `most`.
     if (blocked > most * all + 1.0) break;
   }

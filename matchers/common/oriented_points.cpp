@@ -33,7 +33,7 @@ class Cells {
     sort_members(threads);
     std::vector<bool> is_first(points.size());
     for_first_members([&](std::uint32_t point, std::size_t /*member*/) { is_first[point] = true; });
-    const auto cells = static_cast<std::size_t>(std::count(is_first.begin(), is_first.end(), true));
+    const auto cells = static_cast<std::size_t>(std::ranges::count(is_first, true));
     cells_.reserve(cells);
     for_first_members([&](std::uint32_t point, std::size_t member) {
       const Place place = place_of(point);

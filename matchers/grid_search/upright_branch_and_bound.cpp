@@ -27,11 +27,9 @@ MatchResult UprightBranchAndBound::match(const MatchRequest& request, Rng& rng) 
     const Pose3 map_from_local = pose.pose();
     const Pose3 robot = map_from_local * local.local_from_robot;
     // Neighbours of a better pose that lie in another cell of robot poses.
-    const bool is_known =
-        std::any_of(result.hypotheses.begin(), result.hypotheses.end(), [&](const Hypothesis& h) {
-          const Pose3 other = h.map_from_local * local.local_from_robot;
-          return is_same_candidate(robot, other);
-        });
+    const bool is_known = std::ranges::any_of(result.hypotheses, [&](const Hypothesis& h) {
+      return is_same_candidate(robot, h.map_from_local * local.local_from_robot);
+    });
     if (is_known) continue;
     const double omega = contact_->share(local.points, map_from_local);
     result.points_tested += local.points.size();

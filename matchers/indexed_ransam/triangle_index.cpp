@@ -35,7 +35,7 @@ std::vector<std::uint32_t> partners_of(const Points& points, const Squares& squa
     const float squared = dx * dx + dy * dy;
     if (squared >= square(rule.min_side) && squared < square(rule.max_side)) partners.push_back(i);
   });
-  std::sort(partners.begin(), partners.end());
+  std::ranges::sort(partners);
   return partners;
 }
 
@@ -132,7 +132,7 @@ std::size_t TriangleIndex::memory_bytes() const {
 }
 
 std::span<const Triple> TriangleIndex::find(Relation relation) const {
-  const auto place = std::lower_bound(relations_.begin(), relations_.end(), relation);
+  const auto place = std::ranges::lower_bound(relations_, relation);
   if (place == relations_.end() || *place != relation) return {};
   const auto i = static_cast<std::size_t>(place - relations_.begin());
   return std::span(triangles_).subspan(begins_[i], begins_[i + 1] - begins_[i]);

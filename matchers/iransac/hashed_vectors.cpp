@@ -34,7 +34,7 @@ std::vector<std::uint32_t> HashedVectors::find(const float* vector) const {
     const auto first = std::ranges::lower_bound(entries, name, {}, &Entry::bucket);
     for (auto e = first; e != entries.end() && e->bucket == name; ++e) found.push_back(e->vector);
   }
-  std::sort(found.begin(), found.end());
+  std::ranges::sort(found);
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }

@@ -163,7 +163,7 @@ double Mcl::beam_score(const Beams& beams, const Transform& map_from_robot) cons
 }
 
 void Mcl::weigh(std::vector<double>& log_likelihoods) {
-  const double most = *std::max_element(log_likelihoods.begin(), log_likelihoods.end());
+  const double most = std::ranges::max(log_likelihoods);
   double sum = 0.0;
   for (std::size_t i = 0; i < particles_.weights.size(); ++i) {
     particles_.weights[i] *= std::exp(log_likelihoods[i] - most);

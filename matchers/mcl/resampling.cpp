@@ -17,7 +17,7 @@ std::vector<std::uint32_t> low_variance_draws(const std::vector<double>& weights
     }
   }
   // Rounding may leave the sum a little below 1.
-  const auto heaviest = std::max_element(weights.begin(), weights.end()) - weights.begin();
+  const auto heaviest = std::ranges::max_element(weights) - weights.begin();
   const auto last = draws.empty() ? static_cast<std::uint32_t>(heaviest) : draws.back();
   draws.resize(n, last);
   return draws;

@@ -293,7 +293,7 @@ void PoseSearch::search_round() {
     const auto is_same_here = [&](const RigidMotion& other) {
       return is_same(other, proposal.motion, scene_);
     };
-    if (distinct.size() < params_.refined && std::none_of(distinct.begin(), distinct.end(), is_same_here))
+    if (distinct.size() < params_.refined && std::ranges::none_of(distinct, is_same_here))
       distinct.push_back(proposal.motion);
   }
   for (const RigidMotion& motion : distinct) settle(motion);
