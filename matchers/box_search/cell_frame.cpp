@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "glocal/error.hpp"
+#include "glocal/extent.hpp"
 
 namespace glocal {
 
@@ -18,11 +18,9 @@ void check_cell(double cell, double epsilon) {
 }
 
 CellFrame cell_frame(const Points& map_points, double cell, double epsilon, Motion motion) {
-  const auto least = [&](const std::vector<float>& values) {
-    return *std::min_element(values.begin(), values.end()) - epsilon;
-  };
+  const auto least = [&](const std::vector<float>& values) { return extent_of(values).low - epsilon; };
   const auto cells = [&](const std::vector<float>& values) {
-    const double most = *std::max_element(values.begin(), values.end()) + epsilon;
+    const double most = extent_of(values).high + epsilon;
     return std::floor((most - least(values)) / cell) + 1.0;
   };
   const bool in_space = motion != Motion::planar;

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "glocal/error.hpp"
+#include "glocal/extent.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "matchers/mcl/likelihood_field.cpp"
@@ -68,14 +69,13 @@ LikelihoodField::LikelihoodField(const GlobalMap& map, const LikelihoodFieldRule
     : scale_(static_cast<float>(1.0 / rule.distance_cell)) {
   const Points& points = map.points();
   const DistanceField distances(points, rule.distance_cell, rule.max_distance);
-  const auto [min_x, max_x] = std::minmax_element(points.x.begin(), points.x.end());
-  const auto [min_y, max_y] = std::minmax_element(points.y.begin(), points.y.end());
+  const Extent along_x = extent_of(points.x), along_y = extent_of(points.y);
   // Two cells more than the distances reach, so that those at the border are far from all points.
   const double margin = rule.max_distance + 2.0 * rule.distance_cell;
-  min_x_ = static_cast<float>(*min_x - margin);
-  min_y_ = static_cast<float>(*min_y - margin);
-  const double columns = std::ceil((double{*max_x} - *min_x + 2.0 * margin) / rule.distance_cell);
-  const double rows = std::ceil((double{*max_y} - *min_y + 2.0 * margin) / rule.distance_cell);
+  min_x_ = static_cast<float>(along_x.low - margin);
+  min_y_ = static_cast<float>(along_y.low - margin);
+  const double columns = std::ceil((along_x.length() + 2.0 * margin) / rule.distance_cell);
+  const double rows = std::ceil((along_y.length() + 2.0 * margin) / rule.distance_cell);
   constexpr double most_cells = 268435456.0;  // whose numbers take a GiB
   if (!(columns * rows <= most_cells))
     throw ConfigError(
