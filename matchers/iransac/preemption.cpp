@@ -37,8 +37,7 @@ std::size_t preempt(std::vector<ScoredPose>& hypotheses, const ContactIndex& con
     std::ranges::stable_sort(contenders, std::greater<>(), [](const Contender& c) { return c.pose.score(); });
     const std::size_t left =
         std::max(rule.fewest, left_after(hypotheses.size(), begin + rule.block, rule.block));
-    if (left < contenders.size())
-      contenders.erase(contenders.begin() + static_cast<std::ptrdiff_t>(left), contenders.end());
+    contenders.resize(std::min(left, contenders.size()));
     if (contenders.size() <= rule.fewest) break;
   }
   hypotheses.clear();
