@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "glocal/parallel.hpp"
+#include "matchers/box_search/allowed_translations.hpp"
 
 namespace glocal::grid_search {
 namespace {
@@ -105,11 +106,7 @@ BoxSearchResult Exhaustive::search(const Points& points, const Pose3& local_from
   for (std::size_t begin = 0; begin < grid.rotations(0); begin += rotations_per_round) {
     std::vector<FoundPlaces> found(std::min(rotations_per_round, grid.rotations(0) - begin));
     parallel_for(threads_, found.size(), [&](std::size_t i) {
-      const Pose2 at_zero = grid.pose(0, begin + i, 0.0, 0.0);
-      const RobotCells robots(at_zero * seen_from_above(local_from_robot), 0.0, frame_.cell,
-                              rule.cell_distance, rule.cell_rotation);
-      const AllowedTranslations allowed(rule.gate, at_zero, frame_.cell);
-      found[i] = search_rotation(grid, begin + i, points, robots, allowed, best.bar());
+      found[i] = search_rotation(grid, begin + i, points, local_from_robot, rule, best.bar());
     });
     for (const FoundPlaces& rotation : found) {
       result.tested += rotation.tested;
@@ -124,10 +121,13 @@ BoxSearchResult Exhaustive::search(const Points& points, const Pose3& local_from
 }
 
 FoundPlaces Exhaustive::search_rotation(const PoseGrid& grid, std::size_t rotation, const Points& points,
-                                        const RobotCells& robots, const AllowedTranslations& allowed,
+                                        const Pose3& local_from_robot, const BoxSearchRule& rule,
                                         std::size_t least) const {
   const Translations all = grid.translations(grid.cells(0, rotation), least);
   const Pose2 at_zero = grid.pose(0, rotation, 0.0, 0.0);
+  const RobotCells robots(at_zero * seen_from_above(local_from_robot), 0.0, frame_.cell, rule.cell_distance,
+                          rule.cell_rotation);
+  const AllowedTranslations allowed(rule.gate, at_zero, frame_.cell);
   const Transform turned(at_zero);
   Candidates candidates(contact(), points, least);
   FoundPlaces found;

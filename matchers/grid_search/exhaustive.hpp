@@ -1,6 +1,5 @@
 #pragma once
 
-#include "matchers/box_search/allowed_translations.hpp"
 #include "matchers/box_search/best_places.hpp"
 #include "matchers/box_search/pose_boxes.hpp"
 #include "matchers/grid_search/grid_matcher.hpp"
@@ -30,7 +29,7 @@ class Exhaustive final : public GridMatcher {
   [[nodiscard]] BoxSearchResult search(const Points& points, const Pose3& local_from_robot,
                                        const BoxSearchRule& rule) const override;
   [[nodiscard]] FoundPlaces search_rotation(const PoseGrid& grid, std::size_t rotation, const Points& points,
-                                            const RobotCells& robots, const AllowedTranslations& allowed,
+                                            const Pose3& local_from_robot, const BoxSearchRule& rule,
                                             std::size_t least) const;
 
   int threads_;
