@@ -79,13 +79,15 @@ void merge_hypotheses(std::vector<Hypothesis>& hypotheses, const Pose3& local_fr
   }
 }
 
+void append(const MatchResult& part, MatchResult& whole) {
+  whole.hypotheses.insert(whole.hypotheses.end(), part.hypotheses.begin(), part.hypotheses.end());
+  whole.proposals += part.proposals;
+  whole.points_tested += part.points_tested;
+}
+
 MatchResult joined(const std::vector<MatchResult>& chunks, const Pose3& local_from_robot, std::size_t most) {
   MatchResult result;
-  for (const MatchResult& chunk : chunks) {
-    result.hypotheses.insert(result.hypotheses.end(), chunk.hypotheses.begin(), chunk.hypotheses.end());
-    result.proposals += chunk.proposals;
-    result.points_tested += chunk.points_tested;
-  }
+  for (const MatchResult& chunk : chunks) append(chunk, result);
   std::ranges::stable_sort(result.hypotheses, std::greater<>(), &Hypothesis::score);
   merge_hypotheses(result.hypotheses, local_from_robot, most);
   return result;

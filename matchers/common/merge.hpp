@@ -16,6 +16,9 @@ namespace glocal {
 /// rotation's axis as long as its angle. `hypotheses` come and stay sorted by falling score; most >= 8.
 void merge_hypotheses(std::vector<Hypothesis>& hypotheses, const Pose3& local_from_robot, std::size_t most);
 
+/// Adds what a part of the draws has found to what those before it have.
+void append(const MatchResult& part, MatchResult& whole);
+
 /// What chunks of draws have found, in their order, as one answer: sorted, and merged where there are more
 /// hypotheses than `most`.
 [[nodiscard]] MatchResult joined(const std::vector<MatchResult>& chunks, const Pose3& local_from_robot,

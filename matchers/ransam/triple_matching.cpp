@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <iterator>
 
 #include "glocal/parallel.hpp"
 #include "matchers/common/merge.hpp"
@@ -19,13 +18,6 @@ unsigned table_bits(const TripleSearch& search) {
   // Two slots a draw. Half of the draws of a map have no relation worth keeping, so about one entry in eight
   // is lost to another relation in its slot; a larger table costs more time than it gains.
   return static_cast<unsigned>(std::bit_width(static_cast<unsigned>(search.iterations) * 2U - 1U));
-}
-
-void append(MatchResult&& part, MatchResult& whole) {
-  whole.hypotheses.insert(whole.hypotheses.end(), std::make_move_iterator(part.hypotheses.begin()),
-                          std::make_move_iterator(part.hypotheses.end()));
-  whole.proposals += part.proposals;
-  whole.points_tested += part.points_tested;
 }
 
 }  // namespace
