@@ -45,12 +45,6 @@ Normals normals_of(const Points& normals, const Triple& triple) {
   return {normals[triple[0]], normals[triple[1]], normals[triple[2]]};
 }
 
-/// The motion as one of a robot that stands upright, if it is about that.
-std::optional<RigidMotion> upright_motion(const RigidMotion& motion, const Triangle& triangle) {
-  if (!is_about_upright(motion)) return std::nullopt;
-  return made_upright(motion, as_point(1.0 / 3.0 * (triangle[0] + triangle[1] + triangle[2])));
-}
-
 std::shared_ptr<const SurfacePoints> surfaces_of(const GlobalMap& map, float voxel_size) {
   auto surfaces = map.index<SurfacePoints>(
       fmt::format("{}", voxel_size), [&] { return SurfacePoints(map.points(), map.points(), voxel_size); });
@@ -119,9 +113,8 @@ MatchResult TriangleRansam::test_hypotheses(const SurfacePoints& local, const Po
     RigidMotion motion(pose);
     if (!surfaces_agree(motion, normals_of(local.normals, from), normals_of(map_->normals, to))) continue;
     if (upright_) {
-      const auto upright = upright_motion(motion, triangle);
-      if (!upright) continue;
-      motion = *upright;
+      if (!is_about_upright(motion)) continue;
+      motion = made_upright(motion, as_point(1.0 / 3.0 * (triangle[0] + triangle[1] + triangle[2])));
       pose = motion.pose();
     }
     if (!gate.allows(pose)) continue;
