@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "python/src/conversions.hpp"
 #include "python/src/values.hpp"
@@ -16,23 +17,22 @@ using Ratings = Seen<std::vector<Rating>>;
 
 constexpr double most_proposals = 0x1p53;  // Doubles tell all whole numbers up to this one apart.
 
-std::size_t checked_size(const char* what, std::size_t size, std::size_t wanted) {
-  if (size != wanted)
-    throw py::value_error(
-        fmt::format("{} is wanted for each of {} poses, and not {} of them", what, wanted, size));
-  return size;
+/// Of so many poses, one for each.
+std::vector<double> of_each_pose(const py::object& values, const char* what, std::size_t poses) {
+  std::vector<double> numbers = doubles_of(values, fmt::format("the {} of each pose", what).c_str());
+  if (numbers.size() != poses)
+    throw py::value_error(fmt::format("the {} is wanted for each of {} poses, and not {} of them", what,
+                                      poses, numbers.size()));
+  return numbers;
 }
 
 SeenHypotheses make_hypotheses(const py::object& map_from_local, const py::object& quality,
                                const py::object& score, const py::object& support) {
   const std::vector<Pose3> poses = poses_of(map_from_local);
-  const std::vector<double> omega = doubles_of(quality, "the quality of each pose");
-  checked_size("the quality", omega.size(), poses.size());
-  const std::vector<double> scores = score.is_none() ? omega : doubles_of(score, "the score of each pose");
-  checked_size("the score", scores.size(), poses.size());
+  const std::vector<double> omega = of_each_pose(quality, "quality", poses.size());
+  const std::vector<double> scores = score.is_none() ? omega : of_each_pose(score, "score", poses.size());
   const std::vector<double> supports =
-      support.is_none() ? std::vector(poses.size(), 1.0) : doubles_of(support, "the support of each pose");
-  checked_size("the support", supports.size(), poses.size());
+      support.is_none() ? std::vector(poses.size(), 1.0) : of_each_pose(support, "support", poses.size());
   std::vector<Hypothesis> hypotheses;
   hypotheses.reserve(poses.size());
   for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -44,16 +44,16 @@ SeenHypotheses make_hypotheses(const py::object& map_from_local, const py::objec
     h.support = static_cast<std::size_t>(supports[i]);
     hypotheses.push_back(h);
   }
-  std::stable_sort(hypotheses.begin(), hypotheses.end(),
-                   [](const Hypothesis& a, const Hypothesis& b) { return a.score > b.score; });
+  std::ranges::stable_sort(hypotheses, std::greater<>(), &Hypothesis::score);
   return SeenHypotheses(std::move(hypotheses));
 }
 
-/// A number in each struct: `first` gives that of one.
-template <class Struct, class First>
-py::array column_of(const Seen<std::vector<Struct>>& rows, First first) {
+/// A number in each struct.
+template <class Struct, class Number>
+py::array column_of(const Seen<std::vector<Struct>>& rows, Number Struct::*number) {
   static const Struct none{};
-  return column(*rows, first(rows->empty() ? none : rows->front()), rows.owner());
+  const Struct& first = rows->empty() ? none : rows->front();
+  return column(*rows, &(first.*number), rows.owner());
 }
 
 void bind_list_of_hypotheses(py::module_& module) {
@@ -85,15 +85,13 @@ void bind_list_of_hypotheses(py::module_& module) {
           },
           "Of map_from_robot, rad, in (-pi, pi]; N numbers, computed.")
       .def_property_readonly(
-          "quality",
-          [](const Bound& h) { return column_of(h, [](const Hypothesis& x) { return &x.quality; }); },
+          "quality", [](const Bound& h) { return column_of(h, &Hypothesis::quality); },
           "Omega (eq. 4), in [0, 1].")
       .def_property_readonly(
-          "score", [](const Bound& h) { return column_of(h, [](const Hypothesis& x) { return &x.score; }); },
+          "score", [](const Bound& h) { return column_of(h, &Hypothesis::score); },
           "What the matcher ranks by, in [0, 1].")
       .def_property_readonly(
-          "support",
-          [](const Bound& h) { return column_of(h, [](const Hypothesis& x) { return &x.support; }); },
+          "support", [](const Bound& h) { return column_of(h, &Hypothesis::support); },
           "How many proposals each stands for.")
       .def("__repr__", [](const Bound& h) { return fmt::format("<Hypotheses: {}>", h->size()); });
 }
@@ -139,11 +137,9 @@ void bind_clusters(py::module_& module) {
   py::class_<Ratings>(module, "Ratings", "How much each cluster deserves trust.")
       .def("__len__", [](const Ratings& r) { return r->size(); })
       .def_property_readonly(
-          "r", [](const Ratings& r) { return column_of(r, [](const Rating& x) { return &x.r; }); },
-          "Of eq. 7, in [0, 1].")
+          "r", [](const Ratings& r) { return column_of(r, &Rating::r); }, "Of eq. 7, in [0, 1].")
       .def_property_readonly(
-          "r_normalised",
-          [](const Ratings& r) { return column_of(r, [](const Rating& x) { return &x.r_normalised; }); },
+          "r_normalised", [](const Ratings& r) { return column_of(r, &Rating::r_normalised); },
           "Of eq. 8; they add up to 1.");
 }
 
