@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
-
 namespace glocal::python {
 namespace {
 
@@ -122,6 +120,12 @@ std::vector<double> doubles_of(const py::handle& value, const char* what) {
   if (array.ndim() != 1)
     throw py::value_error(fmt::format("{} is wanted, and not an array of shape {}", what, shape_of(array)));
   return {array.data(), array.data() + array.size()};
+}
+
+Vector3 vector_of(const py::handle& value, const char* what) {
+  const std::vector<double> numbers = doubles_of(value, what);
+  if (numbers.size() != 3) throw py::value_error(fmt::format("{} are wanted", what));
+  return {numbers[0], numbers[1], numbers[2]};
 }
 
 std::vector<Override> overrides_of(const py::list& pairs) {

@@ -46,6 +46,9 @@ template <class Row, class PoseOf>
 /// N numbers; `what` is said of others.
 [[nodiscard]] std::vector<double> doubles_of(const py::handle& value, const char* what);
 
+/// Three numbers; `what` is said of others.
+[[nodiscard]] Vector3 vector_of(const py::handle& value, const char* what);
+
 /// Pairs of paths and values, both texts.
 [[nodiscard]] std::vector<Override> overrides_of(const py::list& pairs);
 

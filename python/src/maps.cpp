@@ -91,18 +91,12 @@ void bind_grid(py::module_& module) {
           "Outer corner of cell (0, 0) in the map, and the direction of the columns.");
 }
 
-Vector3 origin_of(const py::object& origin) {
-  const std::vector<double> p = doubles_of(origin, "x, y and z (m) of the map's origin");
-  if (p.size() != 3) throw py::value_error("x, y and z (m) of the map's origin are wanted");
-  return {p[0], p[1], p[2]};
-}
-
 using Map = std::shared_ptr<GlobalMap>;
 
 Map make_map(const py::object& points, const py::object& grid, const py::object& normals,
              const py::object& path, double resolution, const py::object& origin) {
   MapData data;
-  if (!origin.is_none()) data.origin = origin_of(origin);
+  if (!origin.is_none()) data.origin = vector_of(origin, "x, y and z (m) of the map's origin");
   if (!grid.is_none()) data.grid = *seen<OccupancyGrid>(grid, "the grid of a map is an OccupancyGrid");
   data.points = points.is_none() ? occupied_centres(data.grid) : points_of(points);
   if (data.points.empty())

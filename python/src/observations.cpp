@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
-#include <numbers>
-
 #include "python/src/conversions.hpp"
 #include "python/src/values.hpp"
 
@@ -24,12 +22,6 @@ std::vector<float> times_of(const py::object& times, std::size_t hits) {
   return result;
 }
 
-Point point_of(const py::object& origin) {
-  const std::vector<double> p = doubles_of(origin, "x, y and z (m) of the sensor");
-  if (p.size() != 3) throw py::value_error("x, y and z (m) of the sensor are wanted");
-  return as_point({p[0], p[1], p[2]});
-}
-
 BoundObservation make_observation(const py::object& hits, const py::object& odom_from_robot, double stamp,
                                   const py::object& free_ends, const py::object& origin,
                                   const py::object& times) {
@@ -38,7 +30,8 @@ BoundObservation make_observation(const py::object& hits, const py::object& odom
   observation.odom_from_robot = pose_of(odom_from_robot);
   observation.scan.hits = points_of(hits);
   if (!free_ends.is_none()) observation.scan.free_ends = points_of(free_ends);
-  if (!origin.is_none()) observation.scan.origin = point_of(origin);
+  if (!origin.is_none())
+    observation.scan.origin = as_point(vector_of(origin, "x, y and z (m) of the sensor"));
   observation.scan.times = times_of(times, observation.scan.hits.size());
   return BoundObservation(std::move(observation));
 }
