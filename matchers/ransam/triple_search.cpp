@@ -25,8 +25,7 @@ void describe_triples(ParamVisitor& v, TripleSearch& p) {
            .min = 0.0});
   v.field("local_radius", p.local_radius,
           {.doc = "Draw the second and third point within this distance of the first, on both sides: many "
-                  "more correct "
-                  "collisions. 0 draws from all points, as the paper does.",
+                  "more correct collisions. 0 draws from all points, as the paper does.",
            .unit = "m",
            .min = 0.0,
            .audience = Audience::expert});

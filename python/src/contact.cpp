@@ -41,13 +41,11 @@ void bind_contact(py::module_& module) {
                                   "Tells which points are within epsilon of a point of the map.")
       .def("share", &shares, py::arg("points"), py::arg("poses"),
            "Share of the points (m, local frame) in contact, Omega of eq. 4, at each pose (N x 3: x, y, "
-           "heading; or N x 7): "
-           "N numbers in [0, 1]. Lets other threads run meanwhile.");
+           "heading; or N x 7): N numbers in [0, 1]. Lets other threads run meanwhile.");
   module.def("contact_index", &make_index, py::arg("map").none(false), py::arg("epsilon"),
              py::arg("name") = "bitset",
              "The contact index of a map for an epsilon (m), built once and shared. `bitset` takes constant "
-             "time for a point, "
-             "`kd_tree` is exact.");
+             "time for a point, `kd_tree` is exact.");
 }
 
 }  // namespace glocal::python

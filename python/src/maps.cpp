@@ -72,8 +72,7 @@ void bind_grid(py::module_& module) {
            }),
            py::arg("cells"), py::arg("resolution"), py::arg("map_from_grid") = py::none(),
            "From rows x columns cells, row 0 at the lowest y; the side of a cell (m); and the pose of the "
-           "outer corner of "
-           "cell (0, 0) in the map.")
+           "outer corner of cell (0, 0) in the map.")
       .def_property_readonly(
           "cells",
           [](const Bound& g) -> py::array {
@@ -129,11 +128,10 @@ void bind_maps(py::module_& module) {
            py::arg("normals") = py::none(), py::arg("path") = py::none(), py::arg("resolution") = 0.0,
            py::arg("origin") = py::none(),
            "From points (N x 2 or N x 3, m) or, without any, from the centres of a grid's occupied cells. "
-           "normals: a unit "
-           "vector for each point. path: poses of the robot that made the map. resolution: distance of "
-           "neighbouring "
-           "points (m) of a map without a grid; 0 if not known. origin: (x, y, z), m, what is to be added to "
-           "places of points, grid and path: that of a map far away, whose single precision would be coarse.")
+           "normals: a unit vector for each point. path: poses of the robot that made the map. resolution: "
+           "distance of neighbouring points (m) of a map without a grid; 0 if not known. origin: (x, y, z), "
+           "m, what is to be added to places of points, grid and path: that of a map far away, whose single "
+           "precision would be coarse.")
       .def_property_readonly(
           "points", [part](const Map& map) { return part(map, map->points()); },
           "Occupied places, m, relative to the origin.")
@@ -144,9 +142,8 @@ void bind_maps(py::module_& module) {
             return py::make_tuple(p.x(), p.y(), p.z());
           },
           "(x, y, z), m: what is to be added to places of points, grid and path for the map's frame; 0 of "
-          "maps "
-          "up to 1 km away. "
-          "Stages see poses relative to it, too; results of steps are in the map's frame.")
+          "maps up to 1 km away. Stages see poses relative to it, too; results of steps are in the map's "
+          "frame.")
       .def_property_readonly(
           "normals", [part](const Map& map) { return part(map, map->normals()); },
           "Unit normals of the points, or none at all.")

@@ -67,9 +67,8 @@ void bind_observation(py::module_& module) {
       "only the increments mean something.")
       .def(py::init(&make_observation), py::arg("hits"), py::arg("odom_from_robot"), py::arg("stamp") = 0.0,
            py::arg("free_ends") = py::none(), py::arg("origin") = py::none(), py::arg("times") = py::none(),
-           "hits: ends of the rays that met something, N x 2 or N x 3. free_ends: of those that met nothing. "
-           "origin: the "
-           "sensor. times: when each hit was measured, s after the stamp.")
+           "hits: ends of the rays that met something, N x 2 or N x 3. free_ends: of those that met "
+           "nothing. origin: the sensor. times: when each hit was measured, s after the stamp.")
       .def_property_readonly(
           "stamp", [](const BoundObservation& o) { return o->stamp; }, "s")
       .def_property_readonly(

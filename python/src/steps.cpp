@@ -46,9 +46,8 @@ void bind_verdict(py::module_& module) {
            py::arg("confidence") = 0.0, py::arg("evidence") = py::none(),
            py::arg("needs_certificate") = false,
            "kind: searching, ambiguous, localized or unknown_place. map_from_robot: the declared pose, of "
-           "localized only. "
-           "candidates: poses, of ambiguous only. estimate: the pose held most likely, with a confidence in "
-           "[0, 1].")
+           "localized only. candidates: poses, of ambiguous only. estimate: the pose held most likely, with "
+           "a confidence in [0, 1].")
       .def_property_readonly(
           "kind", [](const Verdict& v) { return to_string(v.kind); },
           "searching, ambiguous, localized or unknown_place")
@@ -109,11 +108,9 @@ void bind_verification(py::module_& module) {
       .def(py::init(&make_verification), py::arg("rivals") = py::none(), py::arg("certificate") = py::none(),
            py::arg("distance") = 1.0, py::arg("rotation") = 0.0, py::arg("margin") = 0.0,
            py::arg("points_tested") = 0, py::arg("goes_on") = false,
-           "rivals: Hypotheses whose quality and score are the share of points in contact. certificate: None "
-           "where the "
-           "search was given up. distance (m), rotation (rad): what is farther away is a rival. margin: a "
-           "rival is about as "
-           "good if its score is lower by no more.")
+           "rivals: Hypotheses whose quality and score are the share of points in contact. certificate: "
+           "None where the search was given up. distance (m), rotation (rad): what is farther away is a "
+           "rival. margin: a rival is about as good if its score is lower by no more.")
       .def_property_readonly(
           "rivals", [](const Verification& v) { return SeenHypotheses(std::vector<Hypothesis>(v.rivals)); },
           "Hypotheses, best score first.")
