@@ -256,13 +256,7 @@ def param(
 
 
 # Names that the core knows the types by.
-_TYPES: dict[Any, str] = {
-    bool: "bool",
-    int: "int",
-    float: "float",
-    str: "str",
-    pathlib.Path: "path",
-}
+_TYPES: dict[Any, str] = {bool: "bool", int: "int", float: "float", str: "str", pathlib.Path: "path"}
 _LISTS: dict[Any, str] = {float: "floats", str: "strs", pathlib.Path: "paths"}
 
 
@@ -298,20 +292,15 @@ def _core_type(hint: Any) -> tuple[str, list[str]]:
     )
 
 
-def _default_of(field: dataclasses.Field[Any]) -> Any:
-    if field.default is not dataclasses.MISSING:
-        return field.default
-    return None if field.default_factory is dataclasses.MISSING else field.default_factory()
-
-
 def _field_of(field: dataclasses.Field[Any], hint: Any) -> _Field:
     facts: _Field | None = field.metadata.get("glocal")
     if facts is None or not facts.doc.strip():
         raise TypeError(f"the parameter '{field.name}' has no sentence that says what it is for; give it with glocal.param()")
     kind, choices = _core_type(hint)
-    required = field.default is dataclasses.MISSING and field.default_factory is dataclasses.MISSING
     choices = facts.choices or choices
-    default = _default_of(field)
+    default = field.default if field.default_factory is dataclasses.MISSING else field.default_factory()
+    required = default is dataclasses.MISSING
+    default = None if required else default
     if default is None and not required and kind != "float or None":
         raise TypeError(f"the default of the parameter '{field.name}', None, is no {kind}")
     for value in default if isinstance(default, (list, tuple)) else [default]:
