@@ -61,10 +61,9 @@ class Table(Mapping[str, "np.ndarray[Any, Any]"]):
 
 def _joined(tables: Mapping[str, Table]) -> Table:
     """The rows of several tables, with a first column that says which they are of."""
-    names = list(dict.fromkeys(name for table in tables.values() for name in table))
     rows = {variant: table.rows for variant, table in tables.items()}
     columns: dict[str, Any] = {"variant": np.repeat(list(rows), list(rows.values()))}
-    for name in names:
+    for name in dict.fromkeys(name for table in tables.values() for name in table):
         parts = [table[name] if name in table else None for table in tables.values()]
         first = next(part for part in parts if part is not None)
         missing = "" if first.dtype.kind == "U" else np.nan
