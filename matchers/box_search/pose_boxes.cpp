@@ -1,6 +1,7 @@
 #include "matchers/box_search/pose_boxes.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <numbers>

@@ -1,7 +1,6 @@
 // The boxes of poses that an exact search divides.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>

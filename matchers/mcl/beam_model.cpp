@@ -1,6 +1,7 @@
 #include "matchers/mcl/beam_model.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 namespace glocal::mcl {

@@ -1,7 +1,6 @@
 // How likely a measured range is where the map says what a beam should meet.
 #pragma once
 
-#include <cmath>
 #include <limits>
 
 namespace glocal::mcl {
