@@ -216,10 +216,7 @@ std::vector<LiveTopic> Ros2Link::topics() {
   tell(mailbox_.take_notes());
   std::vector<LiveTopic> found;
   for (const auto& [sender, topic] : senders_) found.push_back(topic);
-  const auto order = [](const LiveTopic& a, const LiveTopic& b) {
-    return std::tie(a.name, a.type) < std::tie(b.name, b.type);
-  };
-  std::sort(found.begin(), found.end(), order);
+  std::ranges::sort(found, {}, [](const LiveTopic& t) { return std::tie(t.name, t.type); });
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
