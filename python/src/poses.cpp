@@ -23,6 +23,12 @@ std::string text_of(const Pose3& pose) {
                      q.w(), q.x(), q.y(), q.z());
 }
 
+/// As pose_of() takes them.
+py::tuple numbers_of_pose(const Pose3& pose) {
+  const Quaternion& q = pose.rotation;
+  return py::make_tuple(pose.x, pose.y, pose.z, q.w(), q.x(), q.y(), q.z());
+}
+
 /// One number, or an array of that many.
 template <class Draw>
 py::object drawn(const std::optional<std::size_t>& size, Draw draw) {
@@ -114,18 +120,9 @@ void bind_poses(py::module_& module) {
             return py::isinstance<Pose3>(b) && a == b.cast<Pose3>();
           },
           py::arg("other"))
-      .def("__hash__",
-           [](const Pose3& p) {
-             const Quaternion& q = p.rotation;
-             return py::hash(py::make_tuple(p.x, p.y, p.z, q.w(), q.x(), q.y(), q.z()));
-           })
+      .def("__hash__", [](const Pose3& p) { return py::hash(numbers_of_pose(p)); })
       .def("__repr__", &text_of)
-      .def(py::pickle(
-          [](const Pose3& p) {
-            return py::make_tuple(p.x, p.y, p.z, p.rotation.w(), p.rotation.x(), p.rotation.y(),
-                                  p.rotation.z());
-          },
-          [](const py::tuple& state) { return pose_of(state); }));
+      .def(py::pickle(&numbers_of_pose, [](const py::tuple& state) { return pose_of(state); }));
   bind_rng(module);
 }
 
