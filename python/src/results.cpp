@@ -4,13 +4,12 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include <cmath>
+#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <tuple>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "evaluation/comparison/comparison.hpp"
@@ -78,9 +77,8 @@ class Table {
   }
 
   TableColumn& column_of(const std::string& name) {
-    for (TableColumn& column : columns_) {
-      if (column.name == name) return column;
-    }
+    const auto known = std::ranges::find(columns_, name, &TableColumn::name);
+    if (known != columns_.end()) return *known;
     columns_.push_back({name, {}, {}});
     return columns_.back();
   }
