@@ -18,15 +18,15 @@ namespace glocal::bench {
 namespace {
 
 const Catalog& python_strategies() {
-  static Catalog catalog;
-  static const bool loaded = [] {
-    PluginLoader loader(catalog);
-    loader.hand_over(".py", app::load_python_plugin);
-    loader.load(GLOCAL_SOURCE_DIR "/bench/python_calls.py");
-    return true;
-  }();
-  static_cast<void>(loaded);
-  return catalog;
+  struct Loaded : Catalog {
+    Loaded() {
+      PluginLoader loader(*this);
+      loader.hand_over(".py", app::load_python_plugin);
+      loader.load(GLOCAL_SOURCE_DIR "/bench/python_calls.py");
+    }
+  };
+  static const Loaded loaded;
+  return loaded;
 }
 
 StageSetup setup() {

@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -83,7 +84,7 @@ std::vector<Sample> among_people(const std::vector<Sample>& scans, int people) {
 }
 
 double quantile(std::vector<double> values, double share) {
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
@@ -137,13 +138,12 @@ void single_scans(benchmark::State& state, const Site& site, int people) {
 
 /// With sites that are made when they are asked for, and kept.
 void register_all() {
-  static std::vector<std::function<const Site&()>> sites;
   const auto add = [](const std::string& name, const std::function<Site()>& make) {
-    auto kept = std::make_shared<std::unique_ptr<Site>>();
+    auto kept = std::make_shared<std::optional<Site>>();
     for (const int people : {0, 6}) {
       benchmark::RegisterBenchmark((name + "/people:" + std::to_string(people)).c_str(),
                                    [=](benchmark::State& state) {
-                                     if (!*kept) *kept = std::make_unique<Site>(make());
+                                     if (!*kept) *kept = make();
                                      single_scans(state, **kept, people);
                                    })
           ->Iterations(1)
