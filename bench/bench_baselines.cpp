@@ -34,9 +34,8 @@ void nearest(benchmark::State& state, const Scene& s, const std::optional<iransa
   double found = 0.0;
   for (std::size_t i = 0; i < features.size(); ++i) {
     const auto exact = all.nearest(features[i], 10);
-    for (const std::uint32_t number : index.nearest(features[i], 10)) {
-      found += std::find(exact.begin(), exact.end(), number) == exact.end() ? 0.0 : 0.1;
-    }
+    for (const std::uint32_t number : index.nearest(features[i], 10))
+      found += std::ranges::find(exact, number) == exact.end() ? 0.0 : 0.1;
   }
   state.counters["found"] = found / static_cast<double>(features.size());
   state.counters["per_feature"] = time_per_item(static_cast<double>(features.size()));

@@ -96,13 +96,13 @@ class Narrow {
   void begin() { table_.begin_fill(draws); }
   void fill(std::span<const Relation> relations, std::span<const std::uint32_t> numbers) {
     batch_.size = relations.size();
-    std::copy(relations.begin(), relations.end(), batch_.relations.begin());
-    std::copy(numbers.begin(), numbers.end(), batch_.numbers.begin());
+    std::ranges::copy(relations, batch_.relations.begin());
+    std::ranges::copy(numbers, batch_.numbers.begin());
     table_.fill(batch_);
   }
   [[nodiscard]] std::size_t find(std::span<const Relation> relations) {
     batch_.size = relations.size();
-    std::copy(relations.begin(), relations.end(), batch_.relations.begin());
+    std::ranges::copy(relations, batch_.relations.begin());
     table_.find(batch_, found_);
     return found_.size;
   }
