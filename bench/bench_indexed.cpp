@@ -1,7 +1,6 @@
 // Matching against an index of the map: what building it costs, and a step with it.
 #include <benchmark/benchmark.h>
 
-#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "glocal/clearance_grid.hpp"
 #include "glocal/contact.hpp"
 #include "glocal/distance_field.hpp"
+#include "glocal/evenly.hpp"
 #include "matchers/common/oriented_points.hpp"
 #include "matchers/indexed_ransam/indexed_ransam.hpp"
 #include "matchers/indexed_ransam/oriented_pair_index.hpp"
@@ -24,32 +24,31 @@ void oriented_points(benchmark::State& state, const Scene& s) {
     benchmark::DoNotOptimize(oriented_points_of(*s.loaded.map, OrientedPointRule{}));
 }
 
-/// With so many threads.
-void pairs(benchmark::State& state, const Scene& s) {
-  const OrientedPoints found = oriented_points_of(*s.loaded.map, {});
+/// An index that `make(threads)` builds, with so many entries of this name.
+template <class Make>
+void build(benchmark::State& state, const char* entries, Make make) {
   std::size_t bytes = 0;
   std::size_t n = 0;
   for ([[maybe_unused]] auto _ : state) {
-    const indexed_ransam::OrientedPairIndex index(found, {}, static_cast<int>(state.range(0)));
+    const auto index = make(static_cast<int>(state.range(0)));
     bytes = index.memory_bytes();
     n = index.size();
   }
-  state.counters["oriented_pairs"] = static_cast<double>(n);
+  state.counters[entries] = static_cast<double>(n);
   state.counters["MB"] = static_cast<double>(bytes) / 1e6;
+}
+
+void pairs(benchmark::State& state, const Scene& s) {
+  const OrientedPoints found = oriented_points_of(*s.loaded.map, {});
+  build(state, "oriented_pairs",
+        [&](int threads) { return indexed_ransam::OrientedPairIndex(found, {}, threads); });
 }
 
 void triangles(benchmark::State& state, const Scene& s) {
   const Points found = downsampled_in_plane(s.map(), 0.1);
-  std::size_t bytes = 0;
-  std::size_t n = 0;
-  for ([[maybe_unused]] auto _ : state) {
-    const indexed_ransam::TriangleIndex index(found, {.min_side = 0.5, .min_height = 0.3, .max_side = 6.0},
-                                              1'000'000, static_cast<int>(state.range(0)));
-    bytes = index.memory_bytes();
-    n = index.size();
-  }
-  state.counters["triangles"] = static_cast<double>(n);
-  state.counters["MB"] = static_cast<double>(bytes) / 1e6;
+  constexpr TriangleRule rule{.min_side = 0.5, .min_height = 0.3, .max_side = 6.0};
+  build(state, "triangles",
+        [&](int threads) { return indexed_ransam::TriangleIndex(found, rule, 1'000'000, threads); });
 }
 
 /// Full batches of motions that oriented point pairs of a local map propose.
@@ -119,8 +118,7 @@ void refinement(benchmark::State& state, const Scene& s) {
   const DistanceField field(s.map());
   const std::size_t start = s.loaded.starts.front();
   const LocalMap local = local_map_at(s, start, 10);
-  Points points;
-  for (std::size_t i = 0; i < 100; ++i) points.push_back(local.points[i * local.points.size() / 100]);
+  const Points points = evenly_chosen(local.points, 100);
   const Pose2 map_from_local = true_map_from_local(s, start, 10, local);
   const Pose2 off = map_from_local * Pose2{0.1, -0.1, 0.05};
   for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(refined_pose(field, points, off, {}));
