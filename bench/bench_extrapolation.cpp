@@ -2,7 +2,6 @@
 // looking at every point.
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>

@@ -1,11 +1,11 @@
 // Monte Carlo localization: a step of the filter with all its particles, and its inner loop.
 #include <benchmark/benchmark.h>
 
-#include <cmath>
 #include <cstddef>
 #include <string>
 
 #include "bench/scenes.hpp"
+#include "glocal/evenly.hpp"
 #include "matchers/mcl/likelihood_field.hpp"
 #include "matchers/mcl/mcl.hpp"
 #include "matchers/mcl/odometry_motion.hpp"
@@ -32,9 +32,7 @@ void first_step(benchmark::State& state, const Scene& s, const std::string& mode
 
 /// Poses all over the map, and 60 ends of beams.
 struct Lookups {
-  explicit Lookups(const Scene& s) {
-    const Points& hits = first_observation(s).scan.hits;
-    for (std::size_t k = 0; k < 60; ++k) ends.push_back(hits[k * hits.size() / 60]);
+  explicit Lookups(const Scene& s) : ends(evenly_chosen(first_observation(s).scan.hits, 60)) {
     const auto space = mcl::free_space(*s.loaded.map);
     Rng rng(1);
     for (std::size_t i = 0; i < MotionBatch::capacity; ++i) {
