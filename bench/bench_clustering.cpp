@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "bench/scenes.hpp"
@@ -29,8 +30,7 @@ std::vector<Hypothesis> around(std::size_t poses, std::size_t hypotheses) {
                      wrap_angle(centre.theta + rng.normal(radians(2.0)))};
     result.push_back({.map_from_local = pose, .map_from_robot = pose, .score = rng.uniform(0.6, 1.0)});
   }
-  std::stable_sort(result.begin(), result.end(),
-                   [](const Hypothesis& a, const Hypothesis& b) { return a.score > b.score; });
+  std::ranges::stable_sort(result, std::greater<>(), &Hypothesis::score);
   return result;
 }
 

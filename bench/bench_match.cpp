@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <memory>
-#include <utility>
 
 #include "bench/scenes.hpp"
 #include "glocal/contact.hpp"

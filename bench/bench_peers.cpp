@@ -2,7 +2,6 @@
 // Built only where plugins/pcl is.
 #include <benchmark/benchmark.h>
 
-#include <optional>
 #include <string>
 #include <vector>
 
