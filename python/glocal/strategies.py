@@ -343,7 +343,7 @@ def _hash_of(strategy: type, fields: list[_Field]) -> str:
     return hashlib.sha256(repr((sorted(members.items()), fields)).encode()).hexdigest()
 
 
-def _first_sentence(text: str | None) -> str:
+def _first_paragraph(text: str | None) -> str:
     paragraph = (text or "").strip().split("\n\n")[0]
     return " ".join(paragraph.split())
 
@@ -358,9 +358,9 @@ def _registered_as(name: str, strategy: type[_Strategy]) -> _Registered:
         raise TypeError(f"{strategy.__qualname__} has reset(), which is never called: a {strategy.kind} keeps nothing of earlier steps")
     if not strategy.motions or not set(strategy.motions) <= set(_MOTIONS):
         raise TypeError(f"{strategy.__qualname__}.motions is {strategy.motions!r}; it must be a tuple of some of {_MOTIONS}")
-    doc = _first_sentence(strategy.__dict__.get("__doc__"))
+    doc = _first_paragraph(strategy.__dict__.get("__doc__"))
     if not doc:
-        raise TypeError(f"{strategy.__qualname__} needs a docstring: its first sentence tells users what it does")
+        raise TypeError(f"{strategy.__qualname__} needs a docstring: its first paragraph tells users what it does")
     params: type | None = getattr(strategy, "Params", None)
     fields = _fields_of(params)
     file = _file_of(strategy)
