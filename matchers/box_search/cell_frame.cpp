@@ -18,15 +18,15 @@ void check_cell(double cell, double epsilon) {
 }
 
 CellFrame cell_frame(const Points& map_points, double cell, double epsilon, Motion motion) {
-  const auto least = [&](const std::vector<float>& values) { return extent_of(values).low - epsilon; };
-  const auto cells = [&](const std::vector<float>& values) {
-    const double most = extent_of(values).high + epsilon;
-    return std::floor((most - least(values)) / cell) + 1.0;
-  };
   const bool in_space = motion != Motion::planar;
-  const double columns = cells(map_points.x);
-  const double rows = cells(map_points.y);
-  const double layers = in_space ? cells(map_points.z) : 1.0;
+  const Extent x = extent_of(map_points.x), y = extent_of(map_points.y);
+  const Extent z = in_space ? extent_of(map_points.z) : Extent{};
+  const auto cells = [&](const Extent& along) {
+    return std::floor((along.high + epsilon - (along.low - epsilon)) / cell) + 1.0;
+  };
+  const double columns = cells(x);
+  const double rows = cells(y);
+  const double layers = in_space ? cells(z) : 1.0;
   constexpr double largest = 1024.0 * 1024.0 * 1024.0;
   if (!(columns * rows * layers <= largest)) {
     throw ConfigError("", fmt::format("the map is too large for a grid of cells of {} m: it would need more "
@@ -34,9 +34,9 @@ CellFrame cell_frame(const Points& map_points, double cell, double epsilon, Moti
                                       cell));
   }
   return {.cell = cell,
-          .min_x = least(map_points.x),
-          .min_y = least(map_points.y),
-          .min_z = in_space ? least(map_points.z) : 0.0,
+          .min_x = x.low - epsilon,
+          .min_y = y.low - epsilon,
+          .min_z = in_space ? z.low - epsilon : 0.0,
           .columns = static_cast<int>(columns),
           .rows = static_cast<int>(rows),
           .layers = static_cast<int>(layers),
