@@ -76,9 +76,9 @@ void check(const NewPluginOptions& options, const Catalog& catalog) {
              "it becomes a file and a class",
              options.name)});
   }
-  constexpr std::array of_cmake = {"all",     "clean",   "edit_cache",    "help",
-                                   "install", "package", "rebuild_cache", "test"};
-  if (!options.python && std::find(of_cmake.begin(), of_cmake.end(), options.name) != of_cmake.end()) {
+  constexpr std::array<std::string_view, 8> of_cmake = {"all",     "clean",   "edit_cache",    "help",
+                                                        "install", "package", "rebuild_cache", "test"};
+  if (!options.python && std::ranges::find(of_cmake, options.name) != of_cmake.end()) {
     faults.push_back({"", 0, 0,
                       fmt::format("'{}' is a target of CMake's own, and the plugin's would have this name; "
                                   "choose another name",
